@@ -1,0 +1,60 @@
+#pragma once
+#include "scene/job_context.h"
+#include "scene/lod.h"
+#include "scene/result.h"
+#include <filesystem>
+
+namespace lodestone {
+
+enum class Instancing : std::uint8_t {
+    Auto,   // whichever of the next two is smaller, per submesh and for the whole file
+    Nodes,  // one node an instance
+    Gpu,    // EXT_mesh_gpu_instancing where translation, rotation, scale can express it
+    Expand, // no instancing: one mesh a material, vertices in world space
+};
+
+enum class Container : std::uint8_t { Glb, Gltf }; // Gltf: .gltf + .bin + images
+
+struct ExportOptions {
+    Instancing instancing = Instancing::Auto;
+    Container container = Container::Glb;
+};
+
+struct ExportReport {
+    std::uint64_t bytes = 0; // all files written
+    std::uint32_t submeshes_as_gpu_instances = 0;
+    std::uint32_t submeshes_as_nodes = 0;
+    std::vector<std::string> notes; // dropped node names, left-out parts
+};
+
+// Predicts, exactly and without writing, what exportScene would write. Prepared once for a scene
+// and options; bytes() is O(primitives) for GPU instancing, O(nodes) otherwise. Thread-safe.
+class ByteModel {
+  public:
+    ByteModel(ScenePtr scene, const ExportOptions& options);
+    ~ByteModel();
+    ByteModel(ByteModel&&) noexcept;
+    ByteModel& operator=(ByteModel&&) noexcept;
+
+    std::uint64_t bytes(const LodShape& shape) const;
+
+    // Fixed rates for orderings per byte; 16 -> 32-bit index jumps left out.
+    double bytesPerVertex(std::uint32_t submesh, std::uint32_t primitive) const;
+    double bytesPerTriangle(std::uint32_t submesh, std::uint32_t primitive) const;
+    double bytesPerInstance(std::uint32_t submesh) const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<const Impl> impl_;
+};
+
+// Writes a LOD of the scene. Container follows path's extension (.glb, .gltf) over the option.
+// Atomic: temporary file beside it, then rename; an existing file survives any failure.
+// What was not simplified comes out as it went in. Same input and options, same bytes.
+// Errors: Failed (disk, folder), Cancelled. Any thread.
+Result<ExportReport> exportScene(const Scene& scene,
+                                 const Lod& lod,
+                                 const std::filesystem::path& path,
+                                 const ExportOptions& options);
+
+} // namespace lodestone
