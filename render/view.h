@@ -1,0 +1,109 @@
+#pragma once
+// A view: an off-screen picture of one LOD, redrawn only when something changed.
+#include "render/camera.h"
+#include "render/gpu_scene.h"
+#include "render/pixels.h"
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+
+namespace lodestone {
+
+enum class Shading : std::uint8_t {
+    Lit,        // materials as the file has them
+    Clay,       // one soft grey material
+    Normals,    // world normal as colour
+    Flat,       // facets, base colour
+    UvChecker,  // checker board on TEXCOORD_0
+    BySubmesh,  // one colour for each submesh
+    ByInstance, // one colour for each instance
+};
+
+enum class Background : std::uint8_t { Solid, Gradient, Transparent };
+enum class BackFaces : std::uint8_t { PerMaterial, Shown };
+
+struct ViewOptions {
+    Shading shading = Shading::Lit;
+    bool wireframe = false; // edges over the shading
+    Background background = Background::Gradient;
+    glm::vec3 background_srgb{0x1a / 255.0f, 0x1e / 255.0f, 0x23 / 255.0f}; // middle of a gradient
+    glm::vec3 wire_srgb{0.30f, 0.76f, 0.63f};
+    BackFaces back_faces = BackFaces::PerMaterial;
+    // Key light relative to the camera, so that every side of a model can be seen lit.
+    float light_azimuth_rad = -0.7f;
+    float light_elevation_rad = 0.85f;
+    float exposure = 1.0f;
+    int samples = 4; // MSAA, clamped to what the GPU has; 1: off
+
+    bool operator==(const ViewOptions&) const = default;
+};
+
+struct ViewSize {
+    int width_px = 640;
+    int height_px = 480;
+
+    double aspect() const { return height_px > 0 ? double(width_px) / height_px : 1.0; }
+
+    bool operator==(const ViewSize&) const = default;
+};
+
+struct DrawReport {
+    bool drew = false;       // false: nothing changed since the last call
+    bool cost_known = false; // timer queries answer a frame or two later
+    double cost_ms = 0.0;    // of the last measured draw of this view
+    std::uint64_t triangles = 0;
+    std::uint32_t draw_calls = 0;
+};
+
+struct MeasureOptions {
+    int first_frames = 100; // runs of first, first + step, ... last frames
+    int last_frames = 1100;
+    int step_frames = 100;
+    double budget_s = 0.0; // > 0: stop early after that many seconds (at least one frame)
+};
+
+struct MeasureReport {
+    double mean_ms = 0.0; // of a frame, over all runs
+    double fps = 0.0;
+    std::uint64_t frames = 0;
+};
+
+class ViewState;
+
+// Move-only. Main thread, context current.
+class View {
+public:
+    static Result<View> create(const Renderer& renderer);
+    View(View&&) noexcept;
+    View& operator=(View&&) noexcept;
+    ~View();
+
+    struct Input {
+        const GpuScene* scene = nullptr; // null or without a valid LOD: background only
+        const LodHandle* lod = nullptr;
+        OrbitCamera camera;
+        ViewOptions options;
+        ViewSize size;
+    };
+
+    // Draws if scene, LOD, camera, options or size changed. Leaves the window's framebuffer bound.
+    // Errors: Usage for a size beyond the GPU's limit; Failed for a shader that does not compile.
+    Result<DrawReport> draw(const Input& input);
+    void invalidate(); // the next draw() draws
+
+    // The picture, bottom row first as GL has it: show with uv (0,1)-(1,0). Valid until the next
+    // draw() of another size.
+    TextureHandle texture() const;
+    ViewSize size() const;
+    Result<Pixels> readPixels() const; // of the last draw; top row first
+
+    // The papers' protocol: renders off-screen again and again, no vsync, mean time of a frame.
+    Result<MeasureReport> measure(const Input& input, const MeasureOptions& options);
+
+private:
+    explicit View(std::unique_ptr<ViewState> state);
+    std::unique_ptr<ViewState> state_;
+};
+
+} // namespace lodestone
