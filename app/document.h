@@ -1,0 +1,90 @@
+#pragma once
+// The state of the window: scene, lanes, edits. Main thread only. Changed by apply(Document&,
+// Command) and by Session; panels read it.
+#include "app/history.h"
+#include "app/lane.h"
+#include "app/view_state.h"
+
+#include <filesystem>
+
+namespace lodestone {
+
+enum class Severity : std::uint8_t { Info, Warning, Error };
+
+struct Message {
+    Severity severity = Severity::Info;
+    std::string text;
+    std::uint32_t count = 1;    // repeats are counted, not listed again
+    std::uint64_t sequence = 0; // rises with every report; the newest is the highest
+};
+
+enum class LoadState : std::uint8_t { Empty, Loading, Loaded };
+
+using JobId = std::uint64_t;
+
+enum class JobKind : std::uint8_t { Load, Prepare, Export, Measure };
+
+std::string_view jobKindName(JobKind kind);
+
+// A running or waiting job as the status bar shows it.
+struct JobStatus {
+    JobId id = 0;
+    JobKind kind = JobKind::Load;
+    LaneId lane = kNoLane;
+    std::string label; // "Building IAS"
+    bool running = false;
+    double progress = 0.0; // 0..1
+    double elapsed_s = 0.0;
+    std::optional<double> remaining_s; // unknown at first
+};
+
+struct Document {
+    ScenePtr scene;             // the original; null: nothing open
+    std::filesystem::path path; // empty for a sample
+    LoadState load_state = LoadState::Empty;
+    SceneCounts counts; // of `scene`
+    Bounds bounds;      // robust world bounds of `scene`
+
+    std::vector<Lane> lanes; // in display order
+    LaneId active_lane = kNoLane;
+    LaneId next_lane_id = 1;
+    Target master{Target::Kind::Ratio,
+                  0.2};             // Ratio or Triangles: equal triangles; Bytes: equal bytes
+    std::vector<double> importance; // [submeshes] 0.1..10; empty: all 1
+    std::vector<bool> locked;       // [submeshes]; empty: none
+    ExportOptions export_options;
+
+    CameraState camera;
+    ViewOptions view;
+    std::vector<SelectedItem> selection; // sorted, unique
+
+    std::vector<JobStatus> jobs;               // refreshed every frame
+    std::vector<Message> messages;             // oldest first
+    std::vector<std::filesystem::path> recent; // newest first
+    std::optional<std::filesystem::path> last_export;
+
+    History history;
+    std::uint64_t revision = 0;       // rises with every edit, undo and redo
+    std::uint64_t saved_revision = 0; // of the last export or load: dirty() compares
+    std::uint64_t scene_revision = 0; // rises when `scene` is another
+
+    bool dirty() const { return revision != saved_revision; }
+
+    Lane* findLane(LaneId id);             // nullptr if gone
+    const Lane* findLane(LaneId id) const; // nullptr if gone
+};
+
+// Adds a message, or counts it up where the same text and severity stand already.
+void report(Document& document, Severity severity, std::string text);
+// The worst and then newest message, or nullptr.
+const Message* topMessage(const Document& document);
+
+// What the algorithm's schedule gets for a lane: the lane's ordering, the document's importance and
+// locks. Those speak of submeshes, which an expanding algorithm dissolves: left out for it.
+ScheduleOptions scheduleOptions(const Document& document, const LaneSettings& settings);
+
+// Makes `scene` the open document: lanes Original, IAS and Quadric (those that exist) at 20 %,
+// camera unframed, history empty. Messages and recent files stay.
+void resetDocument(Document& document, ScenePtr scene, std::filesystem::path path);
+
+} // namespace lodestone

@@ -1,0 +1,50 @@
+#pragma once
+// Pixels for the command line. app/ knows no GL: main.cpp injects one made over render/.
+#include "app/view_state.h"
+#include "scene/job_context.h"
+#include "scene/lod.h"
+#include "scene/result.h"
+
+#include <filesystem>
+
+namespace lodestone {
+
+struct ImageColumn {
+    ScenePtr scene; // whose submeshes `lod` replaces
+    std::shared_ptr<const Lod> lod;
+    std::string label; // "IAS 20 %"
+};
+
+struct OrbitView {
+    double azimuth_deg = 0.0;
+    double elevation_deg = 0.0;
+    double distance = 0.0; // world units from the centre of the first column's bounds, > 0
+};
+
+struct RenderRequest {
+    std::vector<ImageColumn> columns; // >= 1, side by side with one camera
+    std::uint32_t width_px = 1280;    // of one column
+    std::uint32_t height_px = 720;
+    std::optional<OrbitView> orbit;           // neither this nor the next: frames the scene
+    std::optional<std::uint32_t> file_camera; // in Scene::cameras, in range
+    Shading shading = Shading::Lit;
+    bool wireframe = false;
+    bool measure = false;       // also time each column
+    std::filesystem::path path; // PNG, written atomically
+};
+
+struct RenderReport {
+    std::uint32_t width_px = 0; // of the picture
+    std::uint32_t height_px = 0;
+    std::vector<double> frame_ms; // [columns] with `measure`: mean of the timed frames; else empty
+    std::string renderer;         // GL_RENDERER
+};
+
+class ImageSource {
+public:
+    virtual ~ImageSource() = default;
+    // Draws off screen and writes the PNG. Errors: Failed (no GL, disk), Cancelled. Main thread.
+    virtual Result<RenderReport> render(const RenderRequest& request, const JobContext& job) = 0;
+};
+
+} // namespace lodestone

@@ -1,0 +1,51 @@
+#pragma once
+// Glue between document, jobs and algorithms: what happens once a frame. Main thread; no GL.
+#include "app/commands.h"
+#include "app/ui_log.h"
+
+#include <memory>
+
+namespace lodestone {
+
+class Session {
+public:
+    struct Options {
+        std::uint32_t worker_threads = 2;  // concurrent jobs; each runs its loops on oneTBB
+        std::filesystem::path recent_file; // list of recent files; empty: not kept
+        std::filesystem::path log_file;    // JSON lines of lanes, jobs, messages; empty: none
+    };
+
+    explicit Session(const Options& options);
+    ~Session(); // cancels and joins every job
+
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    const Document& document() const;
+    // Once a frame: carries out the commands, commits finished jobs, starts needed ones, and reads
+    // out the LOD of every ready lane whose target moved (in this call: edge-collapse lanes follow
+    // a slider in the same frame). Returns true if something on screen changed.
+    bool update(CommandQueue& commands);
+    // Until no job is left, for tests and the command line; stops early after timeout_s.
+    // Returns whether it got there.
+    bool updateUntilIdle(double timeout_s);
+
+    // Exact size of a lane's LOD written with other options, for the export dialog. Cached per
+    // scene and options. 0 if the lane shows nothing.
+    std::uint64_t predictedBytes(LaneId lane, const ExportOptions& options);
+    // The window reports what drawing a lane cost.
+    void setFrameTime(LaneId lane, double frame_ms);
+    // Shared with the panels, which add widget rectangles.
+    UiLog& uiLog();
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+// $XDG_CONFIG_HOME/lodestone/recent or ~/.config/lodestone/recent; empty if there is no home.
+std::filesystem::path defaultRecentFile();
+// $LODESTONE_UI_LOG, or empty.
+std::filesystem::path uiLogFileFromEnvironment();
+
+} // namespace lodestone

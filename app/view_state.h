@@ -1,0 +1,47 @@
+#pragma once
+// What all lanes share on screen: camera, light, shading, selection. Plain values; no GL.
+#include <compare>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string_view>
+
+namespace lodestone {
+
+// Orbit camera. Azimuth 0 looks along -z from +z and turns counter-clockwise seen from above;
+// elevation 0 is level, 90 looks straight down.
+struct CameraState {
+    double azimuth_deg = 35.0;
+    double elevation_deg = 20.0;
+    double distance = 0.0; // world units from target; 0: not framed yet
+    glm::dvec3 target{0.0};
+
+    friend bool operator==(const CameraState&, const CameraState&) = default;
+};
+
+enum class Shading : std::uint8_t { Lit, Clay, Flat, Normals, Submesh, Instance };
+
+std::string_view shadingName(Shading shading);                 // "lit", "clay", ...
+std::optional<Shading> shadingFromName(std::string_view name); // nullopt if unknown
+
+enum class CompareMode : std::uint8_t { Grid, Split };
+
+struct ViewOptions {
+    Shading shading = Shading::Lit;
+    bool wireframe = false;
+    CompareMode compare = CompareMode::Grid;
+    double light_azimuth_deg = 30.0; // relative to the camera
+    double light_elevation_deg = 50.0;
+
+    friend bool operator==(const ViewOptions&, const ViewOptions&) = default;
+};
+
+// A submesh, or one of its instances.
+struct SelectedItem {
+    std::uint32_t submesh = 0;
+    std::uint32_t instance = 0xFFFFFFFFu; // in Scene::instances; kNone: the whole submesh
+
+    friend auto operator<=>(const SelectedItem&, const SelectedItem&) = default;
+};
+
+} // namespace lodestone
