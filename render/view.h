@@ -57,14 +57,13 @@ struct DrawReport {
 };
 
 struct MeasureOptions {
-    int first_frames = 100; // runs of first, first + step, ... last frames
-    int last_frames = 1100;
-    int step_frames = 100;
-    double budget_s = 0.0; // > 0: stop early after that many seconds (at least one frame)
+    int warmup_frames = 100; // not counted
+    int frames = 1000;       // the 100th to the 1,100th rendering
+    double budget_s = 0.0;   // > 0: stops early after that many seconds (at least one frame counts)
 };
 
 struct MeasureReport {
-    double mean_ms = 0.0; // of a frame, over all runs
+    double mean_ms = 0.0; // of a counted frame
     double fps = 0.0;
     std::uint64_t frames = 0;
 };
@@ -98,7 +97,8 @@ public:
     ViewSize size() const;
     Result<Pixels> readPixels() const; // of the last draw; top row first
 
-    // The papers' protocol: renders off-screen again and again, no vsync, mean time of a frame.
+    // The papers' protocol (six point-cloud methods, 2023): renders off-screen again and again, no
+    // vsync, mean over the frames after the warm-up. Blocks. Errors as draw().
     Result<MeasureReport> measure(const Input& input, const MeasureOptions& options);
 
 private:
