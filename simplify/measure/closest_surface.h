@@ -1,0 +1,48 @@
+#pragma once
+// The distance from points to an instanced surface (Embree point queries; instances stay
+// instances).
+#include "simplify/measure/surface.h"
+
+#include <memory>
+
+namespace lodestone {
+
+// Immutable once built; queries from any number of threads at once.
+class ClosestSurface {
+public:
+    // pieces: any transforms, sheared, mirrored and singular ones too; their geometries must
+    // outlive the result. Memory: 12 bytes per distinct vertex plus the hierarchy; pieces drawn
+    // once, and those whose transform cannot be inverted well, are transformed and stored on their
+    // own. Errors: BadInput if no triangle is near the frame; Cancelled; Failed (Embree, out of
+    // memory). O(distinct triangles * log + pieces), parallel.
+    static Result<ClosestSurface> build(std::span<const SurfacePiece> pieces,
+                                        const JobContext& job);
+
+    ClosestSurface(ClosestSurface&&) noexcept;
+    ClosestSurface& operator=(ClosestSurface&&) noexcept;
+    ~ClosestSurface();
+
+    // One thread's chain of queries. The triangle found last bounds the next search, so points in
+    // spatial order are fast; the answers do not depend on the order.
+    class Cursor {
+    public:
+        explicit Cursor(const ClosestSurface& surface) : surface_(&surface) {}
+
+        // point and result in the frame of the pieces; not farther out than kFarLimit.
+        // Exact to double for instances, to float of the frame for pieces stored on their own.
+        double distance(const glm::dvec3& point);
+
+    private:
+        const ClosestSurface* surface_;
+        std::uint32_t last_part_ = kNone;
+        std::uint32_t last_triangle_ = 0;
+    };
+
+private:
+    struct Tree;
+    struct Search;
+    explicit ClosestSurface(std::unique_ptr<Tree> tree);
+    std::unique_ptr<Tree> tree_;
+};
+
+} // namespace lodestone
