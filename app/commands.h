@@ -2,6 +2,7 @@
 // Everything a user can do, as values. Panels, keys, tests and the command line send the same ones.
 #include "app/document.h"
 
+#include <utility>
 #include <variant>
 
 namespace lodestone {

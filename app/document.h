@@ -83,8 +83,27 @@ const Message* topMessage(const Document& document);
 // locks. Those speak of submeshes, which an expanding algorithm dissolves: left out for it.
 ScheduleOptions scheduleOptions(const Document& document, const LaneSettings& settings);
 
-// Makes `scene` the open document: lanes Original, IAS and Quadric (those that exist) at 20 %,
-// camera unframed, history empty. Messages and recent files stay.
-void resetDocument(Document& document, ScenePtr scene, std::filesystem::path path);
+// A scene with what the document needs to know of it, computed off the main thread.
+struct LoadedScene {
+    ScenePtr scene;
+    std::filesystem::path path; // empty for a sample
+    SceneCounts counts;
+    Bounds bounds;
+};
+
+// Counts and bounds of a scene. Any thread; O(instanced vertices).
+LoadedScene describeScene(ScenePtr scene, std::filesystem::path path);
+
+// Makes `loaded` the open document: lanes Original, IAS and Quadric (those that exist) at 20 %,
+// camera framed, history empty. Messages, recent files, shading and export options stay.
+void resetDocument(Document& document, LoadedScene loaded);
+
+// World bounds of what is selected (corner boxes of its instances); empty if nothing is.
+Bounds selectionBounds(const Document& document);
+
+// What undo brings back, and bringing it back: a lane that existed before and after keeps its
+// status.
+Edits editsOf(const Document& document);
+void restoreEdits(Document& document, const Edits& edits);
 
 } // namespace lodestone

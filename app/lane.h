@@ -66,7 +66,7 @@ struct LaneStatus {
 struct Lane {
     LaneId id = kNoLane;
     LaneSettings settings;
-    std::uint64_t revision = 1; // rises when a build or schedule would come out differently
+    std::uint64_t revision = 1; // rises when a build would come out differently
     LaneStatus status;
 };
 

@@ -3,6 +3,7 @@
 #include "app/commands.h"
 #include "app/ui_log.h"
 
+#include <functional>
 #include <memory>
 
 namespace lodestone {
@@ -13,9 +14,10 @@ public:
         std::uint32_t worker_threads = 2;  // concurrent jobs; each runs its loops on oneTBB
         std::filesystem::path recent_file; // list of recent files; empty: not kept
         std::filesystem::path log_file;    // JSON lines of lanes, jobs, messages; empty: none
+        std::function<void()> wake; // a job has finished; called from its thread; may be empty
     };
 
-    explicit Session(const Options& options);
+    explicit Session(Options options);
     ~Session(); // cancels and joins every job
 
     Session(const Session&) = delete;

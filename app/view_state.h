@@ -1,8 +1,8 @@
 #pragma once
 // What all lanes share on screen: camera, light, shading, selection. Plain values; no GL.
+#include "scene/scene.h"
+
 #include <compare>
-#include <cstdint>
-#include <glm/glm.hpp>
 #include <optional>
 #include <string_view>
 
@@ -36,10 +36,16 @@ struct ViewOptions {
     friend bool operator==(const ViewOptions&, const ViewOptions&) = default;
 };
 
+constexpr double kVerticalFovRad = 0.6; // of the orbit camera, full angle
+
+// The camera turned as `camera` is, so near that `bounds` just fits the view. Empty bounds:
+// unchanged.
+CameraState framed(const CameraState& camera, const Bounds& bounds);
+
 // A submesh, or one of its instances.
 struct SelectedItem {
     std::uint32_t submesh = 0;
-    std::uint32_t instance = 0xFFFFFFFFu; // in Scene::instances; kNone: the whole submesh
+    std::uint32_t instance = kNone; // in Scene::instances; kNone: the whole submesh
 
     friend auto operator<=>(const SelectedItem&, const SelectedItem&) = default;
 };

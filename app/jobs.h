@@ -1,0 +1,64 @@
+#pragma once
+// Slow work beside the main thread. A job owns its inputs and captures nothing else.
+#include "app/document.h"
+#include "scene/export.h"
+
+#include <functional>
+#include <memory>
+#include <variant>
+
+namespace lodestone {
+
+struct PreparedSource {
+    LodSourcePtr source;
+    std::shared_ptr<const ByteModel> bytes; // made for source->scene()
+};
+
+using JobResult = std::variant<LoadedScene, PreparedSource, ExportReport, Distance>;
+
+struct JobSpec {
+    JobKind kind = JobKind::Load;
+    LaneId lane = kNoLane;
+    std::uint64_t revision = 0; // of what the result is for; handed back unchanged
+    std::string label;          // "Building IAS"
+    std::function<Result<JobResult>(const JobContext&)> run;
+};
+
+struct FinishedJob {
+    JobId id = 0;
+    JobKind kind = JobKind::Load;
+    LaneId lane = kNoLane;
+    std::uint64_t revision = 0;
+    std::string label;
+    Result<JobResult> result;
+};
+
+// Newest wins: a job that is started cancels an older one of the same lane and kind, except
+// exports, which all run. A cancelled job leaves status() at once and its result is dropped; if it
+// does not look at its stop token (a library call) its thread is left alone until it returns. All
+// members: main thread.
+class JobQueue {
+public:
+    // worker_threads: how many jobs run at a time, >= 1. wake: called from the job's thread when it
+    // has finished; may be empty.
+    explicit JobQueue(std::uint32_t worker_threads, std::function<void()> wake = {});
+    ~JobQueue(); // cancels everything and waits for the threads
+
+    JobQueue(const JobQueue&) = delete;
+    JobQueue& operator=(const JobQueue&) = delete;
+
+    JobId start(JobSpec spec);
+    void cancel(JobId id); // 0: all. Returns at once. Running exports are not cancelled
+    void cancel(LaneId lane, JobKind kind);
+    std::vector<FinishedJob> poll();       // in the order of start; starts waiting jobs
+    std::vector<JobStatus> status() const; // waiting and running, in the order of start
+    bool idle() const;
+    // Sleeps until some job has finished or timeout_ms have passed.
+    void waitForFinished(std::uint32_t timeout_ms);
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace lodestone

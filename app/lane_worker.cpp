@@ -1,0 +1,318 @@
+#include "app/lane_worker.h"
+
+#include <algorithm>
+#include <chrono>
+#include <fmt/core.h>
+
+namespace lodestone {
+
+namespace {
+
+// A schedule that took longer than this is made in a job, so that no frame waits for it.
+constexpr double kSynchronousSchedule_s = 0.02;
+
+bool sameTarget(const Target& a, const Target& b) {
+    return a.kind == b.kind && a.value == b.value;
+}
+
+// Updates a value and says whether it was another.
+template <class T, class U>
+bool assign(T& value, U&& next) {
+    if (value == next)
+        return false;
+    value = std::forward<U>(next);
+    return true;
+}
+
+bool setState(Lane& lane, LaneState state, double progress = 0.0, std::string failure = {}) {
+    bool changed = assign(lane.status.state, state);
+    changed |= assign(lane.status.progress, progress);
+    changed |= assign(lane.status.failure, std::move(failure));
+    return changed;
+}
+
+Result<JobResult> prepareSource(const BuildKey& key,
+                                const ScheduleOptions& schedule,
+                                const ExportOptions& export_options,
+                                const JobContext& context) {
+    Result<LodSourcePtr> source =
+        key.algorithm->prepare(key.scene, key.parameters, schedule, context);
+    if (!source)
+        return tl::unexpected<Error>(std::move(source.error()));
+    PreparedSource prepared;
+    prepared.bytes = std::make_shared<const ByteModel>((*source)->scene(), export_options);
+    prepared.source = std::move(*source);
+    return JobResult(std::move(prepared));
+}
+
+void setShown(const Document& document, Lane& lane, std::shared_ptr<const Lod> lod) {
+    LaneStatus& status = lane.status;
+    status.lod = std::move(lod);
+    ++status.lod_revision;
+    status.distance.reset();
+    status.numbers.triangles = status.lod->triangles;
+    status.numbers.unique_triangles = status.lod->unique_triangles;
+    status.numbers.instances = status.lod->instances;
+    const auto all = static_cast<double>(std::max<std::uint64_t>(document.counts.triangles, 1));
+    status.numbers.ratio = static_cast<double>(status.lod->triangles) / all;
+}
+
+} // namespace
+
+bool LaneWorker::refresh(Document& document) {
+    forgetGoneLanes(document);
+    if (!document.scene)
+        return false;
+    bool changed = false;
+    for (Lane& lane : document.lanes)
+        changed |= refreshLane(document, lane);
+
+    std::vector<BuildKey> used;
+    std::vector<ScenePtr> scenes{document.scene};
+    for (const Lane& lane : document.lanes) {
+        used.push_back(work_[lane.id].key);
+        if (lane.status.scene)
+            scenes.push_back(lane.status.scene);
+    }
+    sources_.trim(document.scene, used);
+    byte_models_.trim(scenes);
+    return changed;
+}
+
+void LaneWorker::forgetGoneLanes(const Document& document) {
+    std::erase_if(work_, [&](const auto& item) {
+        if (document.findLane(item.first))
+            return false;
+        jobs_.cancel(item.first, JobKind::Prepare);
+        jobs_.cancel(item.first, JobKind::Measure);
+        return true;
+    });
+}
+
+bool LaneWorker::refreshLane(Document& document, Lane& lane) {
+    Work& work = work_[lane.id];
+    BuildKey key = buildKey(document.scene, lane.settings);
+    if (work.job != 0 && !(key == work.key)) {
+        jobs_.cancel(lane.id, JobKind::Prepare);
+        work.job = 0;
+    }
+    work.key = std::move(key);
+    if (!lane.settings.algorithm)
+        return showOriginal(document, lane, work);
+
+    const CachedSource* cached = sources_.find(work.key);
+    if (!cached) {
+        if (work.failure && work.failure->revision == lane.revision)
+            return setState(lane, LaneState::Failed, 0.0, work.failure->message);
+        work.failure.reset();
+        const Work* builder = work.job != 0 ? &work : buildingElsewhere(lane.id, work.key);
+        if (!builder) {
+            startBuild(document, lane, work);
+            builder = &work;
+        }
+        return refreshBuilding(lane, builder->job);
+    }
+    const ByteModelPtr bytes = byte_models_.get(cached->source->scene(), document.export_options);
+    const LodSourcePtr source = scheduledSource(document, lane, work, *cached, bytes);
+    if (!source)
+        return refreshBuilding(lane, work.job);
+    const bool shown = show(document, lane, work, source, bytes);
+    return setState(lane, LaneState::Ready, 1.0) || shown;
+}
+
+bool LaneWorker::refreshBuilding(Lane& lane, JobId job) const {
+    const std::vector<JobStatus> jobs = jobs_.status();
+    const auto found = std::ranges::find(jobs, job, &JobStatus::id);
+    if (found == jobs.end() || !found->running)
+        return setState(lane, LaneState::Queued);
+    return setState(lane, LaneState::Building, found->progress);
+}
+
+const LaneWorker::Work* LaneWorker::buildingElsewhere(LaneId lane, const BuildKey& key) const {
+    for (const auto& [id, work] : work_)
+        if (id != lane && work.job != 0 && !work.scheduling_base && work.key == key)
+            return &work;
+    return nullptr;
+}
+
+bool LaneWorker::showOriginal(const Document& document, Lane& lane, Work& work) {
+    if (full_lod_scene_ != document.scene) {
+        full_lod_scene_ = document.scene;
+        full_lod_ = std::make_shared<const Lod>(fullLod(*document.scene));
+    }
+    bool changed = setState(lane, LaneState::Ready, 1.0);
+    LaneStatus& status = lane.status;
+    if (status.lod != full_lod_) {
+        jobs_.cancel(lane.id, JobKind::Measure);
+        status.measuring = false;
+        status.source.reset();
+        status.scene = document.scene;
+        setShown(document, lane, full_lod_);
+        status.numbers.error_estimate = 0.0;
+        status.numbers.note.clear();
+        status.build_seconds = 0.0;
+        work.shown_source.reset();
+        changed = true;
+    }
+    const ByteModelPtr bytes = byte_models_.get(document.scene, document.export_options);
+    if (changed || work.shown_bytes != bytes) {
+        work.shown_bytes = bytes;
+        status.numbers.predicted_bytes = bytes->bytes(shapeOf(*document.scene, *full_lod_));
+        changed = true;
+    }
+    return changed;
+}
+
+void LaneWorker::startBuild(const Document& document, const Lane& lane, Work& work) {
+    work.scheduling_base.reset();
+    work.pending_schedule = scheduleOptions(document, lane.settings);
+    JobSpec spec;
+    spec.kind = JobKind::Prepare;
+    spec.lane = lane.id;
+    spec.revision = lane.revision;
+    spec.label = fmt::format("Building {}", laneName(lane.settings));
+    spec.run = [key = work.key,
+                schedule = work.pending_schedule,
+                export_options = document.export_options](const JobContext& context) {
+        return prepareSource(key, schedule, export_options, context);
+    };
+    work.job = jobs_.start(std::move(spec));
+}
+
+LodSourcePtr LaneWorker::scheduledSource(const Document& document,
+                                         const Lane& lane,
+                                         Work& work,
+                                         const CachedSource& cached,
+                                         const ByteModelPtr& bytes) {
+    const ScheduleOptions options = scheduleOptions(document, lane.settings);
+    if (sameSchedule(options, cached.schedule))
+        return cached.source;
+    const ByteModelPtr deciding = options.ordering == Ordering::Byte ? bytes : nullptr;
+    Scheduled& scheduled = work.scheduled;
+    if (scheduled.source && scheduled.base == cached.source && scheduled.bytes == deciding &&
+        sameSchedule(options, scheduled.options))
+        return scheduled.source;
+    if (cached.source->seconds_schedule <= kSynchronousSchedule_s) {
+        scheduled = {cached.source, options, deciding, cached.source->rescheduled(options, *bytes)};
+        return scheduled.source;
+    }
+    // A running one is left to finish: a drag that restarted it every frame would never see any.
+    if (work.job == 0)
+        startScheduling(lane, work, cached.source, options, bytes);
+    return nullptr;
+}
+
+void LaneWorker::startScheduling(const Lane& lane,
+                                 Work& work,
+                                 const LodSourcePtr& base,
+                                 const ScheduleOptions& options,
+                                 const ByteModelPtr& bytes) {
+    work.scheduling_base = base;
+    work.scheduling_bytes = options.ordering == Ordering::Byte ? bytes : nullptr;
+    work.pending_schedule = options;
+    JobSpec spec;
+    spec.kind = JobKind::Prepare;
+    spec.lane = lane.id;
+    spec.revision = lane.revision;
+    spec.label = fmt::format("Scheduling {}", laneName(lane.settings));
+    spec.run = [base, options, bytes](const JobContext&) -> Result<JobResult> {
+        return JobResult(PreparedSource{base->rescheduled(options, *bytes), bytes});
+    };
+    work.job = jobs_.start(std::move(spec));
+}
+
+void LaneWorker::commit(Document& document, FinishedJob& finished) {
+    Lane* lane = document.findLane(finished.lane);
+    const auto found = work_.find(finished.lane);
+    if (!lane || found == work_.end() || found->second.job != finished.id)
+        return;
+    Work& work = found->second;
+    work.job = 0;
+    if (lane->revision != finished.revision)
+        return;
+    if (!finished.result) {
+        work.failure = Failure{lane->revision, finished.result.error().message};
+        report(document,
+               Severity::Error,
+               fmt::format("{}: {}", finished.label, work.failure->message));
+        return;
+    }
+    auto& prepared = std::get<PreparedSource>(*finished.result);
+    if (work.scheduling_base) {
+        work.scheduled = {work.scheduling_base,
+                          work.pending_schedule,
+                          work.scheduling_bytes,
+                          std::move(prepared.source)};
+        work.scheduling_base.reset();
+        return;
+    }
+    for (const std::string& note : prepared.source->notes())
+        report(document, Severity::Info, fmt::format("{}: {}", laneName(lane->settings), note));
+    byte_models_.insert(
+        prepared.source->scene(), document.export_options, std::move(prepared.bytes));
+    sources_.insert({work.key, work.pending_schedule, std::move(prepared.source)});
+}
+
+void LaneWorker::markCancelled(Document& document, LaneId lane_id) {
+    const auto found = work_.find(lane_id);
+    if (found == work_.end())
+        return;
+    found->second.job = 0;
+    const BuildKey key = found->second.key;
+    for (Lane& lane : document.lanes) {
+        Work& work = work_[lane.id];
+        if (lane.settings.algorithm && work.key == key && work.job == 0)
+            work.failure = Failure{lane.revision, "cancelled; change a setting or retry"};
+    }
+}
+
+void LaneWorker::retry(LaneId lane) {
+    if (const auto found = work_.find(lane); found != work_.end())
+        found->second.failure.reset();
+}
+
+bool LaneWorker::show(const Document& document,
+                      Lane& lane,
+                      Work& work,
+                      const LodSourcePtr& source,
+                      const ByteModelPtr& bytes) {
+    const LaneSettings& settings = lane.settings;
+    const bool same_source = work.shown_source == source;
+    if (same_source && work.shown_bytes == bytes && work.shown_position == settings.position &&
+        work.shown_target && sameTarget(*work.shown_target, settings.target))
+        return false;
+
+    const auto start = std::chrono::steady_clock::now();
+    Resolved resolved;
+    if (settings.position)
+        resolved.position = std::min(*settings.position, source->positionCount() - 1);
+    else
+        resolved = source->resolve(settings.target, *bytes);
+
+    LaneStatus& status = lane.status;
+    if (!same_source || !status.lod || status.lod->position != resolved.position) {
+        jobs_.cancel(lane.id, JobKind::Measure);
+        status.measuring = false;
+        const Lod* previous = same_source ? status.lod.get() : nullptr;
+        setShown(document,
+                 lane,
+                 std::make_shared<const Lod>(source->readOut(resolved.position, previous)));
+    }
+    status.source = source;
+    status.scene = source->scene();
+    status.build_seconds = source->seconds_sequence + source->seconds_schedule;
+    status.numbers.predicted_bytes = bytes->bytes(source->shapeAt(resolved.position));
+    status.numbers.error_estimate = source->errorAt(resolved.position);
+    status.numbers.note = std::move(resolved.note);
+    const std::chrono::duration<double, std::milli> elapsed =
+        std::chrono::steady_clock::now() - start;
+    status.readout_ms = elapsed.count();
+
+    work.shown_source = source;
+    work.shown_bytes = bytes;
+    work.shown_position = settings.position;
+    work.shown_target = settings.target;
+    return true;
+}
+
+} // namespace lodestone

@@ -1,0 +1,85 @@
+#pragma once
+// Brings lanes up to date: build, schedule, resolve, read out. Main thread only.
+#include "app/jobs.h"
+#include "app/source_cache.h"
+
+#include <map>
+
+namespace lodestone {
+
+class LaneWorker {
+public:
+    explicit LaneWorker(JobQueue& jobs) : jobs_(jobs) {}
+
+    // Every lane once: commits nothing, starts the builds that are missing, reads out what changed.
+    // Returns true if some lane's status changed.
+    bool refresh(Document& document);
+    // A finished build or schedule. Dropped if the lane is gone or its revision moved on.
+    void commit(Document& document, FinishedJob& finished);
+    // The user cancelled a lane's build: it and the lanes waiting for the same build stay Failed
+    // until retry() or another setting.
+    void markCancelled(Document& document, LaneId lane);
+    void retry(LaneId lane);
+
+    ByteModelCache& byteModels() { return byte_models_; }
+
+private:
+    struct Failure {
+        std::uint64_t revision = 0;
+        std::string message;
+    };
+
+    struct Scheduled {
+        LodSourcePtr base;
+        ScheduleOptions options;
+        ByteModelPtr bytes; // null unless the ordering depends on it
+        LodSourcePtr source;
+    };
+
+    struct Work {
+        BuildKey key;
+        ScheduleOptions pending_schedule; // of the job that runs
+        JobId job = 0;                    // 0: none
+        LodSourcePtr scheduling_base;     // null: the job builds; else it only reschedules this
+        ByteModelPtr scheduling_bytes;
+        std::optional<Failure> failure;
+        Scheduled scheduled;
+        // What `status.lod` was made from.
+        LodSourcePtr shown_source;
+        std::optional<Target> shown_target;
+        std::optional<std::uint64_t> shown_position;
+        ByteModelPtr shown_bytes;
+    };
+
+    void forgetGoneLanes(const Document& document);
+    bool refreshLane(Document& document, Lane& lane);
+    bool refreshBuilding(Lane& lane, JobId job) const;
+    bool showOriginal(const Document& document, Lane& lane, Work& work);
+    void startBuild(const Document& document, const Lane& lane, Work& work);
+    // The source with the lane's schedule; null while a job makes it.
+    LodSourcePtr scheduledSource(const Document& document,
+                                 const Lane& lane,
+                                 Work& work,
+                                 const CachedSource& cached,
+                                 const ByteModelPtr& bytes);
+    void startScheduling(const Lane& lane,
+                         Work& work,
+                         const LodSourcePtr& base,
+                         const ScheduleOptions& options,
+                         const ByteModelPtr& bytes);
+    bool show(const Document& document,
+              Lane& lane,
+              Work& work,
+              const LodSourcePtr& source,
+              const ByteModelPtr& bytes);
+    const Work* buildingElsewhere(LaneId lane, const BuildKey& key) const;
+
+    JobQueue& jobs_;
+    SourceCache sources_;
+    ByteModelCache byte_models_;
+    std::map<LaneId, Work> work_;
+    std::shared_ptr<const Lod> full_lod_; // of full_lod_scene_
+    ScenePtr full_lod_scene_;
+};
+
+} // namespace lodestone

@@ -1,0 +1,58 @@
+#pragma once
+// Built sources and byte models, shared by lanes that would build the same. Main thread only.
+#include "app/lane.h"
+
+namespace lodestone {
+
+// What a source is built from. Parameters complete: defaults filled in.
+struct BuildKey {
+    ScenePtr scene;
+    const Algorithm* algorithm = nullptr;
+    ParameterValues parameters;
+
+    friend bool operator==(const BuildKey&, const BuildKey&) = default;
+};
+
+BuildKey buildKey(const ScenePtr& scene, const LaneSettings& settings);
+bool sameSchedule(const ScheduleOptions& a, const ScheduleOptions& b);
+
+struct CachedSource {
+    BuildKey key;
+    ScheduleOptions schedule; // it was prepared with
+    LodSourcePtr source;
+};
+
+class SourceCache {
+public:
+    const CachedSource* find(const BuildKey& key) const; // nullptr if absent
+    void insert(CachedSource entry);
+    // Keeps what `used` names and the newest few others, so that undo finds them again; nothing of
+    // another scene.
+    void trim(const ScenePtr& scene, std::span<const BuildKey> used);
+
+private:
+    std::vector<CachedSource> entries_; // oldest first
+};
+
+using ByteModelPtr = std::shared_ptr<const ByteModel>;
+
+class ByteModelCache {
+public:
+    ByteModelPtr get(const ScenePtr& scene, const ExportOptions& options); // made if absent
+    void insert(const ScenePtr& scene, const ExportOptions& options, ByteModelPtr model);
+    // Forgets models of scenes that are not among `scenes`.
+    void trim(std::span<const ScenePtr> scenes);
+
+private:
+    struct Entry {
+        ScenePtr scene;
+        ExportOptions options;
+        ByteModelPtr model;
+    };
+
+    const Entry* find(const ScenePtr& scene, const ExportOptions& options) const;
+
+    std::vector<Entry> entries_;
+};
+
+} // namespace lodestone

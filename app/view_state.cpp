@@ -1,0 +1,39 @@
+#include "app/view_state.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace lodestone {
+
+namespace {
+
+constexpr std::array<std::string_view, 6> kShadingNames = {
+    "lit", "clay", "flat", "normals", "submesh", "instance"};
+
+} // namespace
+
+std::string_view shadingName(Shading shading) {
+    return kShadingNames.at(static_cast<std::size_t>(shading));
+}
+
+std::optional<Shading> shadingFromName(std::string_view name) {
+    for (std::size_t index = 0; index < kShadingNames.size(); ++index)
+        if (kShadingNames[index] == name)
+            return static_cast<Shading>(index);
+    return std::nullopt;
+}
+
+CameraState framed(const CameraState& camera, const Bounds& bounds) {
+    if (bounds.empty)
+        return camera;
+    CameraState result = camera;
+    result.target = bounds.center();
+    const double radius = std::max(bounds.diagonal() * 0.5, 1e-6);
+    // The bounding sphere touches the view's upper and lower edge; the scene itself is smaller.
+    constexpr double kSphereSlack = 0.85;
+    result.distance = kSphereSlack * radius / std::sin(kVerticalFovRad * 0.5);
+    return result;
+}
+
+} // namespace lodestone
