@@ -18,7 +18,7 @@ if [ ! -f "$build/npm/$validator" ]; then
     echo "Installing $validator into build/release/npm"
     rm -rf "$build/npm"
     mkdir -p "$build/npm"
-    npm install --prefix "$build/npm" --no-save --no-audit --no-fund --silent "$validator" </dev/null
+    npm install --prefix "$build/npm" --no-save --no-audit --no-fund --loglevel=error "$validator" </dev/null
     touch "$build/npm/$validator"
 fi
 
