@@ -13,8 +13,12 @@ struct SampleRow {
     ScenePtr (*make)(std::uint64_t seed);
 };
 
-constexpr std::array<SampleRow, 1> kSamples{{{"maple", generate::makeMaple}}};
-constexpr std::array<std::string_view, kSamples.size()> kNames{kSamples[0].name};
+constexpr std::array<SampleRow, 4> kSamples{{{"bunny", generate::makeBunny},
+                                             {"chair", generate::makeChair},
+                                             {"maple", generate::makeMaple},
+                                             {"village", generate::makeVillage}}};
+constexpr std::array<std::string_view, kSamples.size()> kNames{
+    kSamples[0].name, kSamples[1].name, kSamples[2].name, kSamples[3].name};
 
 } // namespace
 
@@ -27,7 +31,8 @@ Result<ScenePtr> generateScene(std::string_view name, std::uint64_t seed) {
         if (row.name == name)
             return row.make(seed);
     return fail(ErrorKind::Usage,
-                "no sample scene named '" + std::string(name) + "'; choose maple");
+                "no sample scene named '" + std::string(name) +
+                    "'; choose bunny, chair, maple or village");
 }
 
 } // namespace lodestone
