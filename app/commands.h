@@ -132,7 +132,7 @@ struct FrameScene {}; // the camera that shows everything
 struct FrameSelection {}; // as FrameScene if nothing is selected
 
 struct SetView {
-    ViewOptions view;
+    DisplayOptions view;
 };
 
 struct ClearMessages {};

@@ -55,7 +55,7 @@ struct Document {
     ExportOptions export_options;
 
     CameraState camera;
-    ViewOptions view;
+    DisplayOptions view;
     std::vector<SelectedItem> selection; // sorted, unique
 
     std::vector<JobStatus> jobs;               // refreshed every frame

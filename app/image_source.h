@@ -18,16 +18,16 @@ struct ImageColumn {
 struct OrbitView {
     double azimuth_deg = 0.0;
     double elevation_deg = 0.0;
-    double distance = 0.0; // world units from the centre of the first column's bounds, > 0
+    double distance = 0.0; // world units from the scene's centre; 0: frames the scene
 };
 
 struct RenderRequest {
     std::vector<ImageColumn> columns; // >= 1, side by side with one camera
     std::uint32_t width_px = 1280;    // of one column
     std::uint32_t height_px = 720;
-    std::optional<OrbitView> orbit;           // neither this nor the next: frames the scene
+    std::optional<OrbitView> orbit;           // neither this nor the next: the usual view
     std::optional<std::uint32_t> file_camera; // in Scene::cameras, in range
-    Shading shading = Shading::Lit;
+    ShadingMode shading = ShadingMode::Lit;
     bool wireframe = false;
     bool measure = false;       // also time each column
     std::filesystem::path path; // PNG, written atomically

@@ -8,19 +8,19 @@ namespace lodestone {
 
 namespace {
 
-constexpr std::array<std::string_view, 6> kShadingNames = {
-    "lit", "clay", "flat", "normals", "submesh", "instance"};
+constexpr std::array<std::string_view, 7> kShadingNames = {
+    "lit", "clay", "normals", "flat", "uv", "submesh", "instance"};
 
 } // namespace
 
-std::string_view shadingName(Shading shading) {
+std::string_view shadingName(ShadingMode shading) {
     return kShadingNames.at(static_cast<std::size_t>(shading));
 }
 
-std::optional<Shading> shadingFromName(std::string_view name) {
+std::optional<ShadingMode> shadingFromName(std::string_view name) {
     for (std::size_t index = 0; index < kShadingNames.size(); ++index)
         if (kShadingNames[index] == name)
-            return static_cast<Shading>(index);
+            return static_cast<ShadingMode>(index);
     return std::nullopt;
 }
 

@@ -19,21 +19,21 @@ struct CameraState {
     friend bool operator==(const CameraState&, const CameraState&) = default;
 };
 
-enum class Shading : std::uint8_t { Lit, Clay, Flat, Normals, Submesh, Instance };
+enum class ShadingMode : std::uint8_t { Lit, Clay, Normals, Flat, UvChecker, Submesh, Instance };
 
-std::string_view shadingName(Shading shading);                 // "lit", "clay", ...
-std::optional<Shading> shadingFromName(std::string_view name); // nullopt if unknown
+std::string_view shadingName(ShadingMode shading);                 // "lit", "clay", ...
+std::optional<ShadingMode> shadingFromName(std::string_view name); // nullopt if unknown
 
 enum class CompareMode : std::uint8_t { Grid, Split };
 
-struct ViewOptions {
-    Shading shading = Shading::Lit;
+struct DisplayOptions {
+    ShadingMode shading = ShadingMode::Lit;
     bool wireframe = false;
     CompareMode compare = CompareMode::Grid;
     double light_azimuth_deg = 30.0; // relative to the camera
     double light_elevation_deg = 50.0;
 
-    friend bool operator==(const ViewOptions&, const ViewOptions&) = default;
+    friend bool operator==(const DisplayOptions&, const DisplayOptions&) = default;
 };
 
 constexpr double kVerticalFovRad = 0.6; // of the orbit camera, full angle
