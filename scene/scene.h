@@ -54,6 +54,9 @@ struct Geometry {
     std::vector<Attribute> attributes;
     std::vector<MorphTarget> morph_targets;
     std::vector<std::uint32_t> indices; // < positions.size(); [3 * triangles] for triangle lists
+    // First vertex of each block that is not welded with the others (an expanded scene has one block
+    // an instance); rising. Empty: one block.
+    std::vector<std::uint32_t> weld_blocks;
 
     std::size_t triangleCount() const { return indices.size() / 3; }
 };

@@ -1,0 +1,230 @@
+#include "simplify/collapse/component_mesh.h"
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+namespace lodestone {
+
+namespace {
+
+// Two faces on an edge that are this close to lying back to back are a border, not a fold: the rims
+// of two-sided cards. Cosine between the unit normals.
+constexpr float kBackToBack = -0.98f;
+
+} // namespace
+
+ComponentMesh::ComponentMesh(const Complex& complex,
+                             const InstanceWeights& weights,
+                             const WedgeAttributes& attributes,
+                             const CollapseOptions& options)
+    : complex_(complex),
+      weights_(weights),
+      attributes_(attributes),
+      options_(options),
+      local_of_vertex_(complex.positions.size(), kNone),
+      local_of_wedge_(complex.wedge_source.size(), kNone) {
+    const double cosine = std::cos(options.flip_angle_deg * std::numbers::pi / 180.0);
+    flip_cosine2_ = static_cast<float>(cosine * cosine);
+    flip_sharp_ = cosine > 0.0;
+}
+
+void ComponentMesh::load(std::size_t component) {
+    log_ = {};
+    values_.clear();
+    merged_wedges_.clear();
+    buildVertices(component);
+    buildReferences();
+    buildQuadrics();
+}
+
+void ComponentMesh::buildVertices(std::size_t component) {
+    const std::uint32_t begin = complex_.component_begin[component];
+    const std::uint32_t end = complex_.component_begin[component + 1];
+    vertices_.clear();
+    faces_.resize(end - begin);
+    face_wedges_.resize(end - begin);
+    log_.faces.assign(complex_.component_faces.begin() + begin,
+                      complex_.component_faces.begin() + end);
+    std::vector<std::uint32_t>& ids = scratch_; // complex vertex of each local one
+    ids.clear();
+    for (std::size_t f = 0; f < faces_.size(); ++f)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t wedge = complex_.faces[log_.faces[f]][k];
+            const std::uint32_t vertex = complex_.wedge_vertex[wedge];
+            if (local_of_vertex_[vertex] == kNone) {
+                local_of_vertex_[vertex] = static_cast<std::uint32_t>(ids.size());
+                ids.push_back(vertex);
+            }
+            if (local_of_wedge_[wedge] == kNone) {
+                local_of_wedge_[wedge] = static_cast<std::uint32_t>(log_.wedges.size());
+                log_.wedges.push_back(wedge);
+            }
+            faces_[f][k] = local_of_vertex_[vertex];
+            face_wedges_[f][k] = local_of_wedge_[wedge];
+        }
+    Bounds bounds;
+    for (const std::uint32_t id : ids)
+        bounds.add(glm::dvec3(complex_.positions[id]));
+    origin_ = bounds.center();
+    scale_ = bounds.diagonal() > 0.0 ? bounds.diagonal() : 1.0;
+    vertices_.resize(ids.size());
+    for (std::size_t v = 0; v < ids.size(); ++v) {
+        const glm::dvec3 p = (glm::dvec3(complex_.positions[ids[v]]) - origin_) / scale_;
+        vertices_[v].position = {
+            static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+        local_of_vertex_[ids[v]] = kNone;
+    }
+    for (const std::uint32_t wedge : log_.wedges)
+        local_of_wedge_[wedge] = kNone;
+}
+
+void ComponentMesh::buildReferences() {
+    live_faces_ = static_cast<std::uint32_t>(faces_.size());
+    log_.face_death.assign(faces_.size(), kNone);
+    for (const Corners& face : faces_)
+        for (const std::uint32_t v : face)
+            ++vertices_[v].refs_capacity;
+    std::uint32_t at = 0;
+    for (Vertex& vertex : vertices_) {
+        vertex.refs_begin = at;
+        at += vertex.refs_capacity;
+    }
+    refs_.resize(at);
+    for (std::uint32_t f = 0; f < faces_.size(); ++f)
+        for (const std::uint32_t v : faces_[f])
+            refs_[vertices_[v].refs_begin + vertices_[v].refs_count++] = f;
+    mark_.assign(vertices_.size(), 0);
+    mark_face_.resize(vertices_.size());
+    stamp_ = 0;
+
+    const std::size_t wedges = log_.wedges.size();
+    log_.wedge_death.assign(wedges, kNone);
+    log_.wedge_parent.assign(wedges, kNone);
+    const bool trivial = wedges == vertices_.size() && attributes_.size == 0 && !attributes_.carries;
+    wedge_refs_.clear();
+    if (trivial) { // then wedge and vertex ids are equal: both were numbered by first use
+        face_wedges_.clear();
+        return;
+    }
+    wedge_refs_.assign(wedges, 0);
+    wedge_carrier_.resize(wedges);
+    wedge_primitive_.resize(wedges);
+    for (std::uint32_t f = 0; f < faces_.size(); ++f) {
+        const auto primitive =
+            static_cast<std::uint32_t>(complex_.primitiveOfFace(log_.faces[f]));
+        for (const std::uint32_t w : face_wedges_[f]) {
+            ++wedge_refs_[w];
+            wedge_primitive_[w] = primitive;
+        }
+    }
+    values_.resize(wedges * attributes_.size);
+    for (std::uint32_t w = 0; w < wedges; ++w) {
+        wedge_carrier_[w] = w;
+        const std::size_t from = std::size_t{log_.wedges[w]} * attributes_.size;
+        std::copy_n(attributes_.values.begin() + static_cast<std::ptrdiff_t>(from),
+                    attributes_.size,
+                    values_.begin() + static_cast<std::ptrdiff_t>(w * attributes_.size));
+    }
+}
+
+Float3 ComponentMesh::faceNormal(const Corners& face) const {
+    const Float3 a = vertices_[face[0]].position;
+    return cross(vertices_[face[1]].position - a, vertices_[face[2]].position - a);
+}
+
+void ComponentMesh::buildQuadrics() {
+    for (const Corners& face : faces_)
+        addFaceQuadric(face);
+    for (std::uint32_t v = 0; v < vertices_.size(); ++v)
+        addBoundaryQuadrics(v);
+}
+
+void ComponentMesh::addFaceQuadric(const Corners& face) {
+    const Float3 normal = faceNormal(face);
+    const float length = std::sqrt(dot(normal, normal));
+    if (!(length > 0.0f))
+        return;
+    const Float3 unit = normal * (1.0f / length);
+    float weight = 0.5f * length;
+    if (!weights_.uniform())
+        weight *= static_cast<float>(weights_.face({unit.x, unit.y, unit.z}));
+    for (const std::uint32_t v : face) { // a face passes through its corners: offset 0
+        addPlane(vertices_[v].quadric, unit, 0.0f, weight);
+        vertices_[v].quadric.weight += weight;
+    }
+}
+
+bool ComponentMesh::folded(std::uint32_t face_a, std::uint32_t face_b) const {
+    const Float3 m = faceNormal(faces_[face_a]);
+    const Float3 n = faceNormal(faces_[face_b]);
+    const float product = dot(m, m) * dot(n, n);
+    return product > 0.0f && dot(m, n) < kBackToBack * std::sqrt(product);
+}
+
+void ComponentMesh::addBoundaryQuadrics(std::uint32_t a) {
+    // For each neighbour: how many faces share the edge, and which was seen first.
+    const Vertex& vertex = vertices_[a];
+    const std::uint32_t one = nextStamp();
+    const std::uint32_t two = nextStamp();
+    const std::uint32_t many = nextStamp();
+    for (std::uint32_t r = 0; r < vertex.refs_count; ++r) {
+        const std::uint32_t face = refs_[vertex.refs_begin + r];
+        for (const std::uint32_t b : faces_[face]) {
+            if (b == a)
+                continue;
+            if (mark_[b] < one) {
+                mark_[b] = one;
+                mark_face_[b] = face;
+            } else if (mark_[b] == one && folded(mark_face_[b], face)) {
+                mark_[b] = two;
+            } else {
+                mark_[b] = many;
+            }
+        }
+    }
+    for (std::uint32_t r = 0; r < vertex.refs_count; ++r)
+        for (const std::uint32_t b : faces_[refs_[vertex.refs_begin + r]])
+            if (b > a && (mark_[b] == one || mark_[b] == two)) {
+                addBoundaryQuadric(a, b, mark_face_[b]);
+                vertices_[a].boundary = vertices_[b].boundary = true;
+                mark_[b] = many; // once
+            }
+}
+
+void ComponentMesh::addBoundaryQuadric(std::uint32_t a, std::uint32_t b, std::uint32_t face) {
+    const Float3 edge = vertices_[b].position - vertices_[a].position;
+    const Float3 normal = faceNormal(faces_[face]);
+    const float length2 = dot(edge, edge);
+    if (!(dot(normal, normal) > 0.0f) || !(length2 > 0.0f))
+        return;
+    const auto add = [&](Float3 unit, double weight) {
+        // By length the weight is a length, not an area: back to the scaled units' square.
+        if (options_.boundary_by_length)
+            weight /= scale_;
+        const auto w = static_cast<float>(weight * options_.boundary_weight);
+        addPlane(vertices_[a].quadric, unit, 0.0f, w);
+        addPlane(vertices_[b].quadric, unit, 0.0f, w);
+    };
+    if (weights_.uniform() && !options_.boundary_by_length) {
+        const Float3 across = cross(edge, normal);
+        add(across * (1.0f / std::sqrt(dot(across, across))), length2);
+        return;
+    }
+    std::vector<InstanceWeights::Plane> planes;
+    weights_.border(glm::dvec3(edge.x, edge.y, edge.z),
+                    glm::normalize(glm::dvec3(normal.x, normal.y, normal.z)),
+                    options_.boundary_by_length,
+                    planes);
+    for (const InstanceWeights::Plane& plane : planes)
+        add({static_cast<float>(plane.normal.x),
+             static_cast<float>(plane.normal.y),
+             static_cast<float>(plane.normal.z)},
+            plane.weight);
+}
+
+double ComponentMesh::costScale() const { return scale_ * scale_ * scale_ * scale_; }
+
+CollapseLog ComponentMesh::takeLog() { return std::move(log_); }
+
+} // namespace lodestone

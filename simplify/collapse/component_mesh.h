@@ -1,0 +1,184 @@
+#pragma once
+// One connected component while it is being collapsed: the edge-collapse operator that every way of
+// picking edges shares, and the log that a sequence is made of.
+#include "scene/job_context.h"
+#include "simplify/collapse/complex.h"
+#include "simplify/collapse/quadric.h"
+#include "simplify/collapse/instance_weights.h"
+
+namespace lodestone {
+
+struct CollapseOptions {
+    double boundary_weight = 1.0;  // x the squared edge length, >= 0
+    bool boundary_by_length = false; // paper-literal: weight by length instead of squared length
+    double flip_angle_deg = 80.0;  // collapses that turn a face further are rejected, 0..180
+    // Components with more faces are picked in near-greedy passes down to the second number.
+    std::uint32_t near_greedy_above = 24'000;
+    std::uint32_t exact_below = 6'000;
+};
+
+// Float attributes of wedges that are interpolated (normals, texture coordinates, colours);
+// the rest is taken from the nearest original wedge.
+struct WedgeAttributes {
+    std::uint32_t size = 0;     // floats a wedge
+    std::vector<float> values;  // [wedges * size], all wedges of the complex
+    struct Slot {
+        std::uint32_t offset = 0;
+        std::uint32_t components = 0;
+        bool unit = false;    // renormalise after interpolation
+        bool tangent = false; // xyz unit, w a sign
+    };
+    std::vector<std::vector<Slot>> slots; // [primitives][attributes], components 0: not interpolated
+    bool carries = false; // some attribute or morph target is taken from the nearest wedge
+};
+
+// What happened to one component, in local ids; step numbers start at 1.
+struct CollapseLog {
+    std::vector<float> cost;    // [steps] quadric error, in the complex's units, unscaled weights
+    std::vector<float> error2;  // [steps] squared distance it stands for, in the complex's units
+    std::vector<std::uint32_t> faces;      // [faces] ids in the complex
+    std::vector<std::uint32_t> face_death; // [faces] step, kNone: survives
+    std::vector<std::uint32_t> wedges;       // [wedges] ids in the complex
+    std::vector<std::uint32_t> wedge_death;  // [wedges] step, kNone: survives
+    std::vector<std::uint32_t> wedge_parent; // [wedges] the wedge it became, kNone: just gone
+    std::vector<std::uint32_t> kill_order;   // dead wedges, earliest first
+    // Where a wedge lies from a step on.
+    std::vector<std::uint32_t> version_wedge;
+    std::vector<std::uint32_t> version_step;
+    std::vector<glm::vec3> version_position;    // in the submesh's units
+    std::vector<std::uint32_t> version_carrier; // local wedge whose other attributes it takes
+    std::vector<float> version_values;          // [versions * WedgeAttributes::size]
+
+    std::uint32_t stepCount() const { return static_cast<std::uint32_t>(cost.size()); }
+};
+
+enum class Strictness : std::uint8_t {
+    Manifold, // topology is kept, faces do not turn over
+    Upright,  // topology may change, faces do not turn over
+    Anything, // every edge goes
+};
+
+class ComponentMesh {
+  public:
+    struct Vertex {
+        Float3 position; // relative to origin, over scale
+        Quadric quadric;
+        std::uint32_t refs_begin = 0;
+        std::uint32_t refs_count = 0;
+        std::uint32_t refs_capacity = 0;
+        std::uint32_t version = 0; // rises with every change
+        bool boundary = false;
+        bool locked = false;
+    };
+
+    ComponentMesh(const Complex& complex,
+                  const InstanceWeights& weights,
+                  const WedgeAttributes& attributes,
+                  const CollapseOptions& options);
+
+    // Loads a component; keeps the memory of the last one.
+    void load(std::size_t component);
+
+    std::size_t vertexCount() const { return vertices_.size(); }
+    std::uint32_t liveFaces() const { return live_faces_; }
+    const Vertex& vertex(std::uint32_t v) const { return vertices_[v]; }
+    bool alive(std::uint32_t v) const { return vertices_[v].refs_count > 0; }
+    bool movable(std::uint32_t a, std::uint32_t b) const {
+        return !vertices_[a].locked && !vertices_[b].locked;
+    }
+    Placement place(std::uint32_t a, std::uint32_t b) const {
+        return placeEdge(vertices_[a].quadric,
+                         vertices_[b].quadric,
+                         (vertices_[b].position - vertices_[a].position) * 0.5f);
+    }
+
+    // Calls visit(neighbour) once for each vertex that shares a live face with v.
+    template <class Visit>
+    void forNeighbours(std::uint32_t v, Visit visit);
+
+    // Collapses b into a at the placement if strictness allows, and logs the step.
+    bool tryCollapse(std::uint32_t a, std::uint32_t b, const Placement& placement,
+                     Strictness strictness);
+
+    CollapseLog takeLog();
+    double costScale() const; // x a logged cost: cost in the submesh's own units, unscaled weights
+
+  private:
+    using Corners = std::array<std::uint32_t, 3>;
+
+    void buildVertices(std::size_t component);
+    void buildReferences();
+    void buildQuadrics();
+    void addFaceQuadric(const Corners& face);
+    void addBoundaryQuadrics(std::uint32_t a);
+    void addBoundaryQuadric(std::uint32_t a, std::uint32_t b, std::uint32_t face);
+    bool folded(std::uint32_t face_a, std::uint32_t face_b) const;
+    Float3 faceNormal(const Corners& face) const; // not normalised
+
+    bool keepsTopology(std::uint32_t a, std::uint32_t b);
+    bool keepsOrientation(std::uint32_t a, std::uint32_t b, Float3 target) const;
+    bool facesStayUpright(std::uint32_t moved, std::uint32_t other, Float3 target) const;
+    bool hasFace(std::uint32_t a, std::uint32_t x, std::uint32_t y) const;
+
+    void mergeFaces(std::uint32_t a, std::uint32_t b);
+    void killFace(std::uint32_t face);
+    void dropReference(std::uint32_t v, std::uint32_t face);
+    void mergeWedges(std::uint32_t a, std::uint32_t b, float t);
+    void killWedge(std::uint32_t wedge, std::uint32_t parent);
+    void releaseWedge(std::uint32_t wedge);
+    void addVersion(std::uint32_t wedge, Float3 position);
+    void blendValues(std::uint32_t into, std::uint32_t from, float t);
+    std::uint32_t nextStamp() { return ++stamp_; }
+    std::uint32_t step() const { return log_.stepCount(); }
+
+    const Complex& complex_;
+    const InstanceWeights& weights_;
+    const WedgeAttributes& attributes_;
+    const CollapseOptions& options_;
+    float flip_cosine2_ = 0.0f; // squared cosine of the flip angle
+    bool flip_sharp_ = true;    // flip angle below 90 degrees
+
+    glm::dvec3 origin_{0.0};
+    double scale_ = 1.0;
+    std::vector<Vertex> vertices_;
+    std::vector<Corners> faces_;       // [faces] local vertices; dead: face_death set
+    std::vector<Corners> face_wedges_; // [faces] local wedges; empty while wedges are trivial
+    std::vector<std::uint32_t> refs_;  // faces of each vertex
+    std::vector<std::uint32_t> wedge_refs_;    // [wedges] live corners; empty while trivial
+    std::vector<std::uint32_t> wedge_carrier_; // [wedges]
+    std::vector<float> values_;                // [wedges * size]
+    std::vector<std::uint32_t> wedge_primitive_; // [wedges]
+    std::uint32_t live_faces_ = 0;
+
+    std::vector<std::uint32_t> mark_; // [vertices] stamp
+    std::vector<std::uint32_t> mark_face_; // [vertices] a face on the marked edge
+    std::uint32_t stamp_ = 0;
+    std::vector<std::uint32_t> local_of_vertex_; // [complex vertices], kNone outside load
+    std::vector<std::uint32_t> local_of_wedge_;  // [complex wedges]
+    std::vector<std::array<std::uint32_t, 2>> merged_wedges_; // {b's, a's} of the current collapse
+    std::vector<std::uint32_t> scratch_;
+    CollapseLog log_;
+};
+
+template <class Visit>
+void ComponentMesh::forNeighbours(std::uint32_t v, Visit visit) {
+    const std::uint32_t stamp = nextStamp();
+    mark_[v] = stamp;
+    const Vertex& vertex = vertices_[v];
+    for (std::uint32_t r = 0; r < vertex.refs_count; ++r)
+        for (const std::uint32_t other : faces_[refs_[vertex.refs_begin + r]])
+            if (mark_[other] != stamp) {
+                mark_[other] = stamp;
+                visit(other);
+            }
+}
+
+// Collapses until nothing is left to collapse, the cheapest edge first (indexed by a lazy heap).
+// False if stopped.
+bool collapseExactGreedy(ComponentMesh& mesh, const JobContext& job);
+
+// Near-greedy passes until `stop_at_faces`: each pass takes edges by rising cost, every vertex at
+// most once, up to 1.5 x the cost at which a quarter of the faces would be gone. False if stopped.
+bool collapseNearGreedy(ComponentMesh& mesh, std::uint32_t stop_at_faces, const JobContext& job);
+
+} // namespace lodestone

@@ -1,0 +1,227 @@
+#include "simplify/collapse/instance_weights.h"
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+
+namespace lodestone {
+
+namespace {
+
+constexpr std::size_t kMaxGroups = 64;
+constexpr double kSame = 1e-6; // relative difference of Gram matrices that count as equal
+constexpr int kTableSide = 24; // directions along a cube face's side
+
+glm::dmat3 cofactor(const glm::dmat3& m) {
+    return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
+}
+
+double traceOf(const glm::dmat3& m) { return m[0][0] + m[1][1] + m[2][2]; }
+
+bool isSimilarity(const glm::dmat3& gram) {
+    const double s2 = traceOf(gram) / 3.0;
+    for (int c = 0; c < 3; ++c)
+        for (int r = 0; r < 3; ++r)
+            if (std::abs(gram[c][r] - (c == r ? s2 : 0.0)) > kSame * s2)
+                return false;
+    return true;
+}
+
+// Equal matrices within kSame get equal keys but where a rounding border parts them, which only
+// costs one group more.
+std::array<std::int64_t, 7> keyOf(const glm::dmat3& gram) {
+    const double trace = traceOf(gram);
+    const auto rounded = [&](double value) {
+        return static_cast<std::int64_t>(std::llround(value / (trace * kSame)));
+    };
+    return {static_cast<std::int64_t>(std::llround(std::log(trace) / kSame)),
+            rounded(gram[0][0]),
+            rounded(gram[1][1]),
+            rounded(gram[2][2]),
+            rounded(gram[0][1]),
+            rounded(gram[0][2]),
+            rounded(gram[1][2])};
+}
+
+// Largest singular value of M from G = M^T M, by power iteration with a safe start.
+double stretchOf(const glm::dmat3& gram) {
+    glm::dvec3 v(1.0, 0.7, 0.4);
+    double length = 0.0;
+    for (int i = 0; i < 32; ++i) {
+        v = gram * v;
+        length = glm::length(v);
+        if (length <= 0.0)
+            return 0.0;
+        v /= length;
+    }
+    return std::sqrt(length);
+}
+
+// Cell coordinates of a direction and its opposite: they weigh the same, so three cube faces do.
+struct TableCell {
+    int face = 0;
+    double u = 0.0; // 0..1
+    double v = 0.0;
+};
+
+TableCell cellOf(const glm::dvec3& n) {
+    int axis = 0;
+    for (int i = 1; i < 3; ++i)
+        if (std::abs(n[i]) > std::abs(n[axis]))
+            axis = i;
+    const double major = n[axis];
+    return {axis,
+            0.5 + 0.5 * n[(axis + 1) % 3] / major,
+            0.5 + 0.5 * n[(axis + 2) % 3] / major};
+}
+
+} // namespace
+
+InstanceWeights::InstanceWeights() {
+    const glm::dmat3 identity(1.0);
+    *this = InstanceWeights(std::span(&identity, 1));
+}
+
+InstanceWeights::InstanceWeights(std::span<const glm::dmat3> linear_parts) {
+    double sum4 = 0.0; // of similarities
+    double sum3 = 0.0;
+    max_stretch_ = 0.0;
+    std::map<std::array<std::int64_t, 7>, Group> distinct;
+    for (const glm::dmat3& linear : linear_parts) {
+        const glm::dmat3 gram = glm::transpose(linear) * linear;
+        const double s2 = traceOf(gram) / 3.0;
+        if (!(s2 > 0.0))
+            continue;
+        scale_ += s2 * s2;
+        if (isSimilarity(gram)) {
+            sum4 += s2 * s2;
+            sum3 += s2 * std::sqrt(s2);
+            max_stretch_ = std::max(max_stretch_, std::sqrt(s2));
+            continue;
+        }
+        max_stretch_ = std::max(max_stretch_, stretchOf(gram));
+        const auto [group, added] = distinct.try_emplace(keyOf(gram));
+        if (added)
+            group->second = {gram, cofactor(gram), glm::determinant(gram), 0.0, 0.0};
+        group->second.count += 1.0;
+        group->second.length_count += 1.0;
+    }
+    if (distinct.empty()) {
+        length_ratio_ = sum4 > 0.0 ? sum3 / sum4 : 1.0;
+        return;
+    }
+    for (const auto& [key, group] : distinct)
+        groups_.push_back(group);
+    if (sum4 > 0.0) { // all similarities weigh like one group of unit scale
+        Group similar;
+        similar.count = sum4;
+        similar.length_count = sum3;
+        groups_.push_back(similar);
+    }
+    if (groups_.size() > kMaxGroups) {
+        tabulate();
+        cluster();
+    }
+}
+
+double InstanceWeights::faceExact(const glm::dvec3& normal) const {
+    double sum = 0.0;
+    for (const Group& group : groups_) {
+        const double stretch2 = glm::dot(normal, group.cofactor * normal);
+        if (stretch2 > 0.0)
+            sum += group.count * group.determinant / std::sqrt(stretch2);
+    }
+    return sum / scale_;
+}
+
+double InstanceWeights::face(const glm::dvec3& normal) const {
+    if (groups_.empty())
+        return 1.0;
+    if (table_.empty())
+        return faceExact(normal);
+    const TableCell cell = cellOf(normal);
+    const double x = cell.u * (kTableSide - 1);
+    const double y = cell.v * (kTableSide - 1);
+    const int x0 = std::clamp(static_cast<int>(x), 0, kTableSide - 2);
+    const int y0 = std::clamp(static_cast<int>(y), 0, kTableSide - 2);
+    const auto at = [&](int dx, int dy) {
+        const int row = cell.face * kTableSide + y0 + dy;
+        return table_[static_cast<std::size_t>(row * kTableSide + x0 + dx)];
+    };
+    const double fx = x - x0;
+    const double fy = y - y0;
+    return (at(0, 0) * (1 - fx) + at(1, 0) * fx) * (1 - fy) +
+           (at(0, 1) * (1 - fx) + at(1, 1) * fx) * fy;
+}
+
+void InstanceWeights::border(const glm::dvec3& edge,
+                             const glm::dvec3& normal,
+                             bool by_length,
+                             std::vector<Plane>& out) const {
+    out.clear();
+    const double length2 = glm::dot(edge, edge);
+    if (!(length2 > 0.0))
+        return;
+    if (groups_.empty()) {
+        const glm::dvec3 across = glm::cross(edge, normal);
+        const double length = glm::length(across);
+        if (length > 0.0)
+            out.push_back({across / length,
+                           by_length ? std::sqrt(length2) * length_ratio_ : length2});
+        return;
+    }
+    for (const Group& group : groups_) {
+        const glm::dvec3 pulled = group.cofactor * normal;
+        const double stretch2 = glm::dot(normal, pulled); // |C n|^2
+        const glm::dvec3 across = glm::cross(edge, pulled);
+        const double across2 = glm::dot(across, across);
+        const double world2 = glm::dot(edge, group.gram * edge); // |M e|^2
+        if (!(stretch2 > 0.0 && across2 > 0.0 && world2 > 0.0))
+            continue;
+        const double count =
+            by_length ? group.length_count / std::sqrt(world2) : group.count;
+        const double weight = count * across2 / stretch2 / scale_;
+        out.push_back({across / std::sqrt(across2), weight});
+    }
+}
+
+void InstanceWeights::tabulate() {
+    table_.resize(static_cast<std::size_t>(3 * kTableSide * kTableSide));
+    for (int face = 0; face < 3; ++face)
+        for (int y = 0; y < kTableSide; ++y)
+            for (int x = 0; x < kTableSide; ++x) {
+                glm::dvec3 n(0.0);
+                n[face] = 1.0;
+                n[(face + 1) % 3] = 2.0 * x / (kTableSide - 1) - 1.0;
+                n[(face + 2) % 3] = 2.0 * y / (kTableSide - 1) - 1.0;
+                const int row = face * kTableSide + y;
+                table_[static_cast<std::size_t>(row * kTableSide + x)] =
+                    faceExact(glm::normalize(n));
+            }
+}
+
+// Borders cannot be tabulated over directions alone: groups of like size are averaged instead.
+void InstanceWeights::cluster() {
+    std::ranges::stable_sort(groups_, {}, [](const Group& g) { return traceOf(g.gram); });
+    std::vector<Group> clusters;
+    for (std::size_t c = 0; c < kMaxGroups; ++c) {
+        const std::size_t begin = groups_.size() * c / kMaxGroups;
+        const std::size_t end = groups_.size() * (c + 1) / kMaxGroups;
+        Group mean;
+        mean.gram = glm::dmat3(0.0);
+        mean.count = 0.0;
+        mean.length_count = 0.0;
+        for (std::size_t g = begin; g < end; ++g) {
+            mean.gram += groups_[g].gram * groups_[g].count;
+            mean.count += groups_[g].count;
+            mean.length_count += groups_[g].length_count;
+        }
+        mean.gram /= mean.count;
+        mean.cofactor = cofactor(mean.gram);
+        mean.determinant = glm::determinant(mean.gram);
+        clusters.push_back(mean);
+    }
+    groups_ = std::move(clusters);
+}
+
+} // namespace lodestone

@@ -1,0 +1,261 @@
+// From a sequence and a step to meshes.
+#include "simplify/collapse/sequence.h"
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+namespace lodestone {
+
+namespace {
+
+constexpr std::size_t kGrain = 16'384; // elements a task
+
+template <class Body>
+void forBlocks(std::size_t count, Body body) {
+    if (count <= kGrain) {
+        body(std::size_t{0}, count);
+        return;
+    }
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kGrain),
+                      [&](const auto& range) { body(range.begin(), range.end()); });
+}
+
+// Stable compaction in parallel: keep(i) decides, emit(i, at) writes. Returns how many were kept.
+template <class Keep, class Emit>
+std::size_t compact(std::size_t begin, std::size_t end, Keep keep, Emit emit) {
+    const std::size_t blocks = (end - begin + kGrain - 1) / kGrain;
+    std::vector<std::size_t> at(blocks + 1, 0);
+    const auto blockEnd = [&](std::size_t b) { return std::min(end, begin + (b + 1) * kGrain); };
+    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+        std::size_t count = 0;
+        for (std::size_t i = begin + b * kGrain; i < blockEnd(b); ++i)
+            count += keep(i);
+        at[b + 1] = count;
+    });
+    std::partial_sum(at.begin(), at.end(), at.begin());
+    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+        std::size_t to = at[b];
+        for (std::size_t i = begin + b * kGrain; i < blockEnd(b); ++i)
+            if (keep(i))
+                emit(i, to++);
+    });
+    return at.back();
+}
+
+// The last version of a wedge that holds at a step; kNone: still as in the file.
+std::uint32_t versionAt(const CollapseSequence& sequence, std::uint32_t wedge, std::uint32_t step) {
+    const auto begin = sequence.version_step.begin() + sequence.version_begin[wedge];
+    const auto end = sequence.version_step.begin() + sequence.version_begin[wedge + 1];
+    const auto after = std::upper_bound(begin, end, step);
+    return after == begin ? kNone
+                          : static_cast<std::uint32_t>(after - sequence.version_step.begin() - 1);
+}
+
+// The alive wedges of a primitive and where they stand at a step.
+struct AliveWedges {
+    std::vector<std::uint32_t> wedges;
+    std::vector<std::uint32_t> versions; // kNone: as in the file
+};
+
+struct ReadOut {
+    const CollapseSequence& sequence;
+    const Submesh& submesh;
+    std::uint32_t step;
+    double scale;
+    glm::dvec3 pivot;
+    std::vector<std::uint32_t> stands_for; // [wedges]
+    std::vector<std::uint32_t> vertex_of;  // [wedges] in its primitive's new geometry
+
+    glm::vec3 scaled(const glm::vec3& p) const {
+        return scale == 1.0 ? p : glm::vec3(pivot + (glm::dvec3(p) - pivot) * scale);
+    }
+
+    std::uint32_t carrier(std::uint32_t wedge, std::uint32_t version) const {
+        return version == kNone || sequence.version_carrier.empty()
+                   ? wedge
+                   : sequence.version_carrier[version];
+    }
+
+    AliveWedges findAlive(std::size_t primitive);
+    void fillPositions(const AliveWedges& alive, const Geometry& from, Geometry& to) const;
+    void fillCarried(const AliveWedges& alive, const Attribute& from, Attribute& to) const;
+    void fillBlended(const AliveWedges& alive,
+                     const WedgeAttributes::Slot& slot,
+                     const Attribute& from,
+                     Attribute& to) const;
+    void fillIndices(std::size_t primitive, Geometry& to) const;
+    GeometryPtr readPrimitive(std::size_t primitive);
+};
+
+AliveWedges ReadOut::findAlive(std::size_t primitive) {
+    AliveWedges alive;
+    const std::size_t count = sequence.counts[primitive].wedges[step];
+    alive.wedges.resize(count);
+    alive.versions.resize(count);
+    compact(
+        sequence.complex.wedge_begin[primitive],
+        sequence.complex.wedge_begin[primitive + 1],
+        [&](std::size_t w) { return sequence.wedge_death[w] > step; },
+        [&](std::size_t w, std::size_t at) {
+            const auto wedge = static_cast<std::uint32_t>(w);
+            alive.wedges[at] = wedge;
+            alive.versions[at] = versionAt(sequence, wedge, step);
+            vertex_of[w] = static_cast<std::uint32_t>(at);
+        });
+    return alive;
+}
+
+void ReadOut::fillPositions(const AliveWedges& alive, const Geometry& from, Geometry& to) const {
+    to.positions.resize(alive.wedges.size());
+    forBlocks(alive.wedges.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::uint32_t version = alive.versions[i];
+            to.positions[i] =
+                scaled(version == kNone
+                           ? from.positions[sequence.complex.wedge_source[alive.wedges[i]]]
+                           : sequence.version_position[version]);
+        }
+    });
+}
+
+Attribute emptyLike(const Attribute& from, std::size_t vertices) {
+    Attribute to{from.semantic, from.type, from.components, from.normalized, {}};
+    to.bytes.resize(vertices * from.stride());
+    return to;
+}
+
+void ReadOut::fillCarried(const AliveWedges& alive, const Attribute& from, Attribute& to) const {
+    const std::size_t stride = from.stride();
+    for (std::size_t i = 0; i < alive.wedges.size(); ++i) {
+        const std::uint32_t wedge = carrier(alive.wedges[i], alive.versions[i]);
+        std::memcpy(to.bytes.data() + i * stride,
+                    from.bytes.data() + sequence.complex.wedge_source[wedge] * stride,
+                    stride);
+    }
+}
+
+void ReadOut::fillBlended(const AliveWedges& alive,
+                          const WedgeAttributes::Slot& slot,
+                          const Attribute& from,
+                          Attribute& to) const {
+    const std::size_t stride = from.stride();
+    forBlocks(alive.wedges.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::uint32_t version = alive.versions[i];
+            std::byte* out = to.bytes.data() + i * stride;
+            if (version == kNone) {
+                const std::size_t source = sequence.complex.wedge_source[alive.wedges[i]];
+                std::memcpy(out, from.bytes.data() + source * stride, stride);
+                continue;
+            }
+            const float* values = sequence.version_values.data() +
+                                  std::size_t{version} * sequence.attributes.size + slot.offset;
+            if (from.type == ComponentType::Float32)
+                std::memcpy(out, values, stride);
+            else
+                for (std::uint32_t c = 0; c < slot.components; ++c)
+                    setAttributeValue(to, i, c, values[c]);
+        }
+    });
+}
+
+void ReadOut::fillIndices(std::size_t primitive, Geometry& to) const {
+    const Complex& complex = sequence.complex;
+    to.indices.resize(std::size_t{3} * sequence.counts[primitive].faces[step]);
+    compact(
+        complex.face_begin[primitive],
+        complex.face_begin[primitive + 1],
+        [&](std::size_t f) { return sequence.face_death[f] > step; },
+        [&](std::size_t f, std::size_t at) {
+            for (std::size_t k = 0; k < 3; ++k)
+                to.indices[3 * at + k] = vertex_of[stands_for[complex.faces[f][k]]];
+        });
+}
+
+GeometryPtr ReadOut::readPrimitive(std::size_t primitive) {
+    const Primitive& source = submesh.primitives[primitive];
+    if (source.mode != PrimitiveMode::Triangles)
+        return source.geometry;
+    const Geometry& from = *source.geometry;
+    auto to = std::make_shared<Geometry>();
+    const AliveWedges alive = findAlive(primitive);
+    fillPositions(alive, from, *to);
+    for (std::size_t a = 0; a < from.attributes.size(); ++a) {
+        const WedgeAttributes::Slot& slot = sequence.attributes.slots[primitive][a];
+        to->attributes.push_back(emptyLike(from.attributes[a], alive.wedges.size()));
+        if (slot.components > 0)
+            fillBlended(alive, slot, from.attributes[a], to->attributes.back());
+        else
+            fillCarried(alive, from.attributes[a], to->attributes.back());
+    }
+    for (const MorphTarget& target : from.morph_targets) {
+        to->morph_targets.emplace_back();
+        for (const Attribute& attribute : target.attributes) {
+            std::vector<Attribute>& out = to->morph_targets.back().attributes;
+            out.push_back(emptyLike(attribute, alive.wedges.size()));
+            fillCarried(alive, attribute, out.back());
+        }
+    }
+    fillIndices(primitive, *to);
+    return to;
+}
+
+} // namespace
+
+void resolveWedges(const CollapseSequence& sequence,
+                   std::uint32_t step,
+                   std::span<std::uint32_t> out) {
+    forBlocks(out.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t w = begin; w < end; ++w)
+            out[w] = static_cast<std::uint32_t>(w);
+    });
+    const std::size_t components = sequence.kill_begin.size() - 1;
+    const auto resolve = [&](std::size_t component) {
+        const auto begin = sequence.kill_order.begin() + sequence.kill_begin[component];
+        const auto end = sequence.kill_order.begin() + sequence.kill_begin[component + 1];
+        auto at = std::partition_point(
+            begin, end, [&](std::uint32_t wedge) { return sequence.wedge_death[wedge] <= step; });
+        while (at != begin) { // later deaths first: a parent is resolved before its children
+            const std::uint32_t wedge = *--at;
+            const std::uint32_t parent = sequence.wedge_parent[wedge];
+            if (parent != kNone)
+                out[wedge] = out[parent];
+        }
+    };
+    if (out.size() <= kGrain)
+        for (std::size_t c = 0; c < components; ++c)
+            resolve(c);
+    else
+        tbb::parallel_for(std::size_t{0}, components, resolve);
+}
+
+glm::vec3 wedgePosition(const CollapseSequence& sequence,
+                        const Submesh& submesh,
+                        std::uint32_t wedge,
+                        std::uint32_t step) {
+    const std::uint32_t version = versionAt(sequence, wedge, step);
+    if (version != kNone)
+        return sequence.version_position[version];
+    const auto after = std::ranges::upper_bound(sequence.complex.wedge_begin, wedge);
+    const auto primitive = static_cast<std::size_t>(after - sequence.complex.wedge_begin.begin()) - 1;
+    return submesh.primitives[primitive].geometry->positions[sequence.complex.wedge_source[wedge]];
+}
+
+std::vector<GeometryPtr> readOutSubmesh(const CollapseSequence& sequence,
+                                        const Submesh& submesh,
+                                        std::uint32_t step,
+                                        double scale,
+                                        const glm::dvec3& pivot) {
+    ReadOut read{sequence, submesh, step, scale, pivot, {}, {}};
+    read.stands_for.resize(sequence.complex.wedge_source.size());
+    read.vertex_of.resize(read.stands_for.size());
+    resolveWedges(sequence, step, read.stands_for);
+    std::vector<GeometryPtr> primitives;
+    for (std::size_t p = 0; p < submesh.primitives.size(); ++p)
+        primitives.push_back(read.readPrimitive(p));
+    return primitives;
+}
+
+} // namespace lodestone
