@@ -30,7 +30,7 @@ Parts makeParts(Sample& sample) {
     Parts parts{};
     parts.leg = bar("leg", {0.055, 0.045, 0.60, 0.006, 1, {}}, frame);
     // The slats are a little dished: one joint in the middle.
-    parts.seat_slat = bar("seat slat", {0.066, kSlat, 0.50, 0.004, 2, {0.0, 0.008}}, oiled);
+    parts.seat_slat = bar("seat slat", {0.066, kSlat, 0.50, 0.004, 2, {0.0, -0.006}}, oiled);
     parts.back_slat = bar("back slat", {0.052, kSlat, 0.56, 0.004, 2, {0.0, -0.014}}, oiled);
     parts.arm = bar("arm rest", {0.088, 0.024, 0.60, 0.008, 2, {0.008, 0.0}}, oiled);
     parts.rail = bar("cross bar", {kRailHeight, 0.026, 0.505, 0.005, 1, {}}, frame);
