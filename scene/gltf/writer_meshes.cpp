@@ -1,0 +1,321 @@
+#include "scene/gltf/writer_meshes.h"
+
+#include "scene/gltf/writer_references.h"
+#include "scene/gltf/writer_uri.h"
+
+#include <algorithm>
+#include <cstring>
+#include <tuple>
+
+namespace lodestone {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr std::uint32_t kPositions = kNone; // StreamPlan::attribute
+
+// Gives equal numbers to streams of equal bytes.
+class ContentNumbers {
+public:
+    // kind: streams of different kinds never share an accessor.
+    std::uint32_t numberOf(const std::string& kind, std::span<const std::byte> bytes) {
+        std::vector<Known>& candidates = known_[{kind, bytes.size()}];
+        const std::uint64_t fingerprint = fingerprintOf(bytes);
+        for (const Known& known : candidates)
+            if (known.bytes.data() == bytes.data() ||
+                (known.fingerprint == fingerprint && std::ranges::equal(known.bytes, bytes)))
+                return known.number;
+        candidates.push_back({bytes, fingerprint, next_});
+        return next_++;
+    }
+
+    std::uint32_t count() const { return next_; }
+
+private:
+    struct Known {
+        std::span<const std::byte> bytes;
+        std::uint64_t fingerprint = 0;
+        std::uint32_t number = 0;
+    };
+
+    // Of up to 256 words taken evenly: enough to tell most streams apart without reading them.
+    static std::uint64_t fingerprintOf(std::span<const std::byte> bytes) {
+        std::uint64_t value = 0xcbf29ce484222325ULL;
+        const std::size_t words = bytes.size() / 4;
+        const std::size_t step = words / 256 + 1;
+        for (std::size_t w = 0; w < words; w += step) {
+            std::uint32_t word;
+            std::memcpy(&word, bytes.data() + w * 4, sizeof word);
+            value = (value ^ word) * 0x100000001b3ULL;
+        }
+        return value;
+    }
+
+    std::map<std::pair<std::string, std::size_t>, std::vector<Known>> known_;
+    std::uint32_t next_ = 0;
+};
+
+std::string accessorType(std::uint32_t components) {
+    switch (components) {
+    case 1:
+        return "SCALAR";
+    case 9:
+        return "MAT3";
+    case 16:
+        return "MAT4";
+    default:
+        return "VEC" + std::to_string(components);
+    }
+}
+
+std::string formatOf(ComponentType type, std::uint32_t components, bool normalized) {
+    json format{{"componentType", static_cast<int>(type)}, {"type", accessorType(components)}};
+    if (normalized)
+        format["normalized"] = true;
+    return dumpMembers(format);
+}
+
+// Characters that the longest number of a component type takes.
+std::uint32_t numberWidth(ComponentType type) {
+    switch (type) {
+    case ComponentType::Int8:
+        return 4;
+    case ComponentType::UInt8:
+        return 3;
+    case ComponentType::Int16:
+        return 6;
+    case ComponentType::UInt16:
+        return 5;
+    case ComponentType::UInt32:
+        return 10;
+    case ComponentType::Float32:
+        break;
+    }
+    return 15; // -1.23456789e-38
+}
+
+std::uint32_t classOfStride(ExportPlan& plan, std::size_t element_bytes) {
+    const auto stride = static_cast<std::uint32_t>((element_bytes + 3) & ~std::size_t{3});
+    const auto found = std::ranges::find(plan.strides, stride);
+    const auto index = static_cast<std::uint32_t>(found - plan.strides.begin());
+    if (found == plan.strides.end())
+        plan.strides.push_back(stride);
+    return kFirstStrideClass + index;
+}
+
+class MeshPlanner {
+public:
+    MeshPlanner(ExportPlan& plan, json& document) : plan_(plan), document_(document) {}
+
+    void planAll() {
+        json& list = document_["meshes"];
+        const SourceDocument& source = *plan_.scene.source;
+        plan_.submeshes.resize(plan_.scene.submeshes.size());
+        plan_.meshes.resize(list.is_array() ? list.size() : 0);
+        for (std::uint32_t s = 0; s < plan_.submeshes.size(); ++s) {
+            plan_.submeshes[s].mesh = source.mesh_of_submesh[s];
+            plan_.meshes[source.mesh_of_submesh[s]].submesh = s;
+        }
+        const std::vector<InstanceRange> ranges = instanceRanges(plan_.scene);
+        for (std::uint32_t m = 0; m < plan_.meshes.size(); ++m) {
+            MeshPlan& mesh = plan_.meshes[m];
+            if (mesh.submesh == kNone) {
+                planCarried(mesh, list[m]);
+                continue;
+            }
+            plan_.submeshes[mesh.submesh].range = ranges[mesh.submesh];
+            mesh.wanted = ranges[mesh.submesh].size() == 0;
+            planMesh(mesh, list[m]);
+        }
+        plan_.content_count = contents_.count();
+    }
+
+private:
+    void planCarried(MeshPlan& mesh, json& entry) {
+        ReferenceVisitor visitor;
+        visitor.accessor = [&](json& value) {
+            const std::uint32_t number = plan_.carried.meshAccessor(value.get<std::uint32_t>());
+            if (number != kNone)
+                value = number;
+        };
+        visitMeshAccessors(entry, visitor);
+        mesh.whole = dumpJson(entry);
+        mesh.wanted = true;
+    }
+
+    void planMesh(MeshPlan& mesh, json& entry) {
+        const Submesh& submesh = plan_.scene.submeshes[mesh.submesh];
+        json primitives = std::move(entry["primitives"]);
+        entry.erase("primitives");
+        mesh.rest = Fragment(dumpMembers(entry));
+        for (std::size_t p = 0; p < submesh.primitives.size(); ++p)
+            mesh.primitives.push_back(planPrimitive(submesh.primitives[p], primitives[p]));
+    }
+
+    PrimitivePlan planPrimitive(const Primitive& primitive, json& entry) {
+        PrimitivePlan to;
+        const Geometry& geometry = *primitive.geometry;
+        to.full = {static_cast<std::uint32_t>(geometry.positions.size()),
+                   static_cast<std::uint32_t>(geometry.indices.size())};
+        addPositions(to, primitive);
+        for (std::uint32_t a = 0; a < geometry.attributes.size(); ++a)
+            addAttribute(to, geometry.attributes[a], a, kNone);
+        for (std::uint32_t t = 0; t < geometry.morph_targets.size(); ++t)
+            for (std::uint32_t a = 0; a < geometry.morph_targets[t].attributes.size(); ++a)
+                addAttribute(to, geometry.morph_targets[t].attributes[a], a, t);
+        const bool wide = to.full.vertices > 65535;
+        to.index_content = contents_.numberOf(wide ? "index32" : "index16",
+                                              std::as_bytes(std::span(geometry.indices)));
+        to.first_stream = plan_.stream_count;
+        plan_.stream_count += static_cast<std::uint32_t>(to.streams.size()) + 1;
+        to.rest = restOf(primitive, entry);
+        return to;
+    }
+
+    void addPositions(PrimitivePlan& to, const Primitive& primitive) {
+        StreamPlan stream;
+        stream.key = "\"POSITION\":";
+        stream.format = formatOf(primitive.position_type, 3, primitive.position_normalized);
+        stream.attribute = kPositions;
+        stream.view_class = classOfStride(plan_, 3 * byteSize(primitive.position_type));
+        stream.component_count = 3;
+        stream.bounds_width = numberWidth(primitive.position_type);
+        stream.content = contents_.numberOf(
+            "p" + stream.format, std::as_bytes(std::span(primitive.geometry->positions)));
+        to.streams.push_back(std::move(stream));
+    }
+
+    void addAttribute(PrimitivePlan& to,
+                      const Attribute& attribute,
+                      std::uint32_t index,
+                      std::uint32_t target) {
+        StreamPlan stream;
+        stream.key = dumpJson(attribute.semantic) + ":";
+        stream.format = formatOf(attribute.type, attribute.components, attribute.normalized);
+        stream.attribute = index;
+        stream.target = target;
+        stream.view_class = classOfStride(plan_, attribute.stride());
+        stream.component_count = attribute.components;
+        const bool bounded = attribute.semantic == "POSITION";
+        stream.bounds_width = bounded ? numberWidth(attribute.type) : 0;
+        stream.content = contents_.numberOf((bounded ? "p" : "a") + stream.format, attribute.bytes);
+        to.streams.push_back(std::move(stream));
+    }
+
+    // Material, mode, extras and extensions; what lists vertices or compressed data is left out.
+    std::string restOf(const Primitive& primitive, json& entry) {
+        if (!entry.is_object())
+            entry = json::object();
+        for (const char* key : {"attributes", "indices", "targets", "mode"})
+            entry.erase(key);
+        if (primitive.mode != PrimitiveMode::Triangles)
+            entry["mode"] = static_cast<int>(primitive.mode);
+        if (const auto extensions = entry.find("extensions"); extensions != entry.end()) {
+            extensions->erase("KHR_draco_mesh_compression");
+            if (extensions->erase("CESIUM_primitive_outline") != 0)
+                plan_.notes.emplace_back("left out: CESIUM_primitive_outline, it lists vertices");
+            if (extensions->empty())
+                entry.erase(extensions);
+        }
+        return entry.empty() ? std::string() : "," + dumpMembers(entry);
+    }
+
+    ExportPlan& plan_;
+    json& document_;
+    ContentNumbers contents_;
+};
+
+std::string sniffMimeType(std::span<const std::byte> bytes) {
+    const auto startsWith = [&](std::string_view magic) {
+        return bytes.size() >= magic.size() &&
+               std::memcmp(bytes.data(), magic.data(), magic.size()) == 0;
+    };
+    if (startsWith("\x89PNG"))
+        return "image/png";
+    if (startsWith("\xFF\xD8\xFF"))
+        return "image/jpeg";
+    if (startsWith("RIFF"))
+        return "image/webp";
+    if (startsWith("\xABKTX 20\xBB"))
+        return "image/ktx2";
+    return "image/png";
+}
+
+std::string extensionOf(const std::string& mime_type) {
+    if (mime_type == "image/jpeg")
+        return ".jpg";
+    if (mime_type == "image/webp")
+        return ".webp";
+    if (mime_type == "image/ktx2")
+        return ".ktx2";
+    return ".png";
+}
+
+// The file's own place where that is inside the folder, else its name alone, else a made-up name.
+std::filesystem::path imagePath(const Scene& scene, std::size_t index, const std::string& mime) {
+    const Image& image = scene.images[index];
+    const bool external = !image.uri.empty() && !image.uri.starts_with("data:");
+    if (external) {
+        const auto path = std::filesystem::path(percentDecoded(image.uri)).lexically_normal();
+        const bool outside =
+            path.is_absolute() || path.begin() == path.end() || *path.begin() == "..";
+        const auto inside = outside ? path.filename() : path;
+        if (!inside.empty() && inside.has_filename())
+            return inside;
+    }
+    std::string name = image.name.empty() ? std::filesystem::path(scene.name).stem().string() +
+                                                "_image" + std::to_string(index)
+                                          : image.name;
+    for (char& c : name)
+        if (!isUnreserved(c) || c == '/')
+            c = '_';
+    const std::string extension = extensionOf(mime);
+    return name.ends_with(extension) ? name : name + extension;
+}
+
+// Adds an image file; a name that other bytes have already gets a number.
+std::filesystem::path fileOf(ExportPlan& plan, std::filesystem::path path, const Image& image) {
+    const std::filesystem::path wanted = path;
+    for (std::size_t attempt = 1;; ++attempt) {
+        const auto same = std::ranges::find(plan.image_files, path, &ImageFile::path);
+        if (same == plan.image_files.end()) {
+            plan.image_files.push_back({path, image.bytes});
+            return path;
+        }
+        if (same->bytes == image.bytes || *same->bytes == *image.bytes)
+            return path; // one file, two references
+        path = wanted;
+        path.replace_filename(std::to_string(attempt) + "_" + wanted.filename().string());
+    }
+}
+
+} // namespace
+
+void planMeshes(ExportPlan& plan, json& document) {
+    MeshPlanner(plan, document).planAll();
+}
+
+void planImages(ExportPlan& plan, json& document) {
+    for (std::size_t i = 0; i < plan.scene.images.size(); ++i) {
+        const Image& image = plan.scene.images[i];
+        json& entry = document["images"][i];
+        if (!image.bytes || image.bytes->empty()) {
+            entry.erase("bufferView");
+            continue;
+        }
+        const std::string mime =
+            image.mime_type.empty() ? sniffMimeType(*image.bytes) : image.mime_type;
+        entry.erase("uri");
+        entry.erase("bufferView");
+        if (plan.options.container == Container::Glb) {
+            entry["mimeType"] = mime;
+            entry["bufferView"] = plan.carried.addView(*image.bytes);
+            continue;
+        }
+        const std::filesystem::path path = fileOf(plan, imagePath(plan.scene, i, mime), image);
+        entry["uri"] = percentEncoded(path.generic_string());
+    }
+}
+
+} // namespace lodestone
