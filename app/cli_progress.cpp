@@ -16,6 +16,10 @@ constexpr std::chrono::milliseconds kRedrawInterval{50};
 ProgressBar::ProgressBar(const CliEnvironment& environment) : environment_(environment) {}
 
 ProgressBar::~ProgressBar() {
+    finish();
+}
+
+void ProgressBar::finish() {
     const std::lock_guard lock(mutex_);
     clear();
 }

@@ -18,6 +18,7 @@ public:
 
     // What the next fractions are of: "simplify with ias".
     void stage(std::string label);
+    void finish(); // removes the bar, before results are printed
     // For the stage; valid as long as the bar.
     JobContext context();
 

@@ -1,11 +1,11 @@
 #include "app/recent.h"
 
+#include "app/file_text.h"
 #include "app/session.h"
 
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
-#include <unistd.h>
 
 namespace lodestone {
 
@@ -45,18 +45,10 @@ bool writeRecent(const std::filesystem::path& list_file,
                  const std::vector<std::filesystem::path>& recent) {
     std::error_code error;
     std::filesystem::create_directories(list_file.parent_path(), error);
-    std::filesystem::path temporary = list_file;
-    temporary += "." + std::to_string(getpid());
-    {
-        std::ofstream stream(temporary, std::ios::trunc);
-        for (const std::filesystem::path& path : recent)
-            stream << path.string() << '\n';
-        stream.flush();
-        if (!stream)
-            return false;
-    }
-    std::filesystem::rename(temporary, list_file, error);
-    return !error;
+    std::string text;
+    for (const std::filesystem::path& path : recent)
+        text += path.string() + '\n';
+    return writeFileText(list_file, text).has_value();
 }
 
 std::filesystem::path defaultRecentFile() {
