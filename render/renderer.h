@@ -20,7 +20,7 @@ public:
 
     const GlInfo& info() const;
 
-    RendererState& state() const { return *state_; }
+    const std::shared_ptr<RendererState>& shared() const { return state_; }
 
 private:
     explicit Renderer(std::shared_ptr<RendererState> state) : state_(std::move(state)) {}

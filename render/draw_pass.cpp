@@ -1,0 +1,309 @@
+#include "render/draw_pass.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <utility>
+
+namespace lodestone {
+
+namespace {
+
+// Layout of the uniform block Frame in shaders/common.glsl (std140).
+struct FrameBlock {
+    glm::mat4 clip_from_scene;
+    glm::vec4 eye;
+    glm::vec4 right;
+    glm::vec4 up;
+    glm::vec4 back;
+    glm::vec4 key_light;
+    glm::vec4 viewport;
+    glm::vec4 wire_color;
+};
+
+FrameBlock frameBlock(const View::Input& input, const SceneFrame& frame, int samples) {
+    const glm::dmat4 view = viewMatrix(input.camera);
+    const glm::dmat4 projection = projectionMatrix(input.camera, input.size.aspect());
+    const glm::dmat4 world_from_scene =
+        glm::scale(glm::translate(glm::dmat4(1.0), frame.center), glm::dvec3(frame.radius));
+    const glm::dmat3 axes = glm::transpose(glm::dmat3(view));
+    const double azimuth = input.options.light_azimuth_rad;
+    const double elevation = input.options.light_elevation_rad;
+    const glm::dvec3 light = axes * glm::dvec3(std::cos(elevation) * std::sin(azimuth),
+                                               std::sin(elevation),
+                                               std::cos(elevation) * std::cos(azimuth));
+    FrameBlock block;
+    block.clip_from_scene = glm::mat4(projection * view * world_from_scene);
+    block.eye = glm::vec4((cameraPosition(input.camera) - frame.center) / frame.radius, 1.0);
+    block.right = glm::vec4(axes[0], 0.0);
+    block.up = glm::vec4(axes[1], 0.0);
+    block.back = glm::vec4(axes[2], input.camera.orthographic ? 1.0 : 0.0);
+    block.key_light = glm::vec4(light, 0.0);
+    block.viewport = glm::vec4(input.size.width_px,
+                               input.size.height_px,
+                               input.options.exposure,
+                               samples > 1 ? 1.0f : 0.0f);
+    block.wire_color = glm::vec4(input.options.wire_srgb, 1.0f);
+    return block;
+}
+
+std::uint32_t shadeFeature(Shading shading) {
+    switch (shading) {
+    case Shading::Clay:
+        return kShadeClay;
+    case Shading::Normals:
+        return kShadeNormals;
+    case Shading::Flat:
+        return kShadeBaseColor | kFacets;
+    case Shading::UvChecker:
+        return kShadeUv;
+    case Shading::BySubmesh:
+        return kShadeSubmesh;
+    case Shading::ByInstance:
+        return kByInstance;
+    case Shading::Lit:
+        break;
+    }
+    return kShadeLit;
+}
+
+// The features a draw needs and no more: few programs, lean vertex shaders.
+std::uint32_t itemFeatures(const DrawItem& item, const GpuSceneState& scene, Shading shading) {
+    const GpuMaterial& material = scene.materials[item.material];
+    std::uint32_t features = shadeFeature(shading) | material.features;
+    const bool shows_base = shading == Shading::Lit || shading == Shading::Flat;
+    if (!shows_base)
+        features &= ~(kAlphaBlend | kUnlit);
+    if (shading == Shading::Flat)
+        features &= ~kUnlit;
+    const bool uses_alpha = (features & (kAlphaMask | kAlphaBlend)) != 0;
+    if (!shows_base && !uses_alpha)
+        features &= ~kBaseMap;
+    if (shading != Shading::Lit || (features & kUnlit) != 0)
+        features &= ~(kAnyMap & ~kBaseMap);
+
+    const std::uint32_t layout = item.geometry->layout.features;
+    if (item.mode != PrimitiveMode::Triangles)
+        features |= kNoSurface;
+    const bool smooth = (features & (kNoSurface | kFacets)) == 0 &&
+                        !(shading == Shading::Lit && (features & kUnlit) != 0);
+    if (smooth)
+        features |= layout & kHasNormal;
+    if (shows_base || uses_alpha)
+        features |= layout & kHasColor;
+    if ((features & kAnyMap) != 0)
+        features |= layout & (kHasUv0 | kHasUv1);
+    if (shading == Shading::UvChecker)
+        features |= layout & kHasUv0;
+    if ((features & (kHasUv0 | kHasUv1)) == 0)
+        features &= ~kAnyMap;
+    if (scene.submeshes[item.submesh].mirroring == Mirroring::Mixed &&
+        item.mode == PrimitiveMode::Triangles)
+        features |= kMixedMirror;
+    return features;
+}
+
+GLenum glMode(PrimitiveMode mode) {
+    switch (mode) {
+    case PrimitiveMode::Points:
+        return GL_POINTS;
+    case PrimitiveMode::Lines:
+        return GL_LINES;
+    case PrimitiveMode::LineLoop:
+        return GL_LINE_LOOP;
+    case PrimitiveMode::LineStrip:
+        return GL_LINE_STRIP;
+    case PrimitiveMode::Triangles:
+        break;
+    }
+    return GL_TRIANGLES;
+}
+
+void setEnabled(GLenum capability, bool enabled) {
+    if (enabled)
+        glEnable(capability);
+    else
+        glDisable(capability);
+}
+
+// Binds what changes from item to item, skipping what is bound already.
+class ItemBinder {
+public:
+    ItemBinder(const GpuSceneState& scene, const ViewOptions& options, int samples)
+        : scene_(scene), options_(options), samples_(samples) {}
+
+    Result<void> bind(const DrawItem& item) {
+        std::uint32_t features = itemFeatures(item, scene_, options_.shading);
+        if (options_.wireframe && item.mode == PrimitiveMode::Triangles)
+            features |= kWireframe;
+        if (!program_ || features != features_) {
+            Result<const SceneProgram*> program = scene_.renderer->sceneProgram(features);
+            if (!program)
+                return tl::unexpected(program.error());
+            program_ = *program;
+            features_ = features;
+            glUseProgram(program_->program.name());
+            bindCoverage();
+        }
+        if (item.material != material_) {
+            material_ = item.material;
+            bindMaterial();
+        }
+        bindFacing(item);
+        if (program_->submesh_color >= 0)
+            glUniform4fv(program_->submesh_color,
+                         1,
+                         glm::value_ptr(scene_.submeshes[item.submesh].id_color));
+        glBindVertexArray(item.vertex_array.name());
+        return {};
+    }
+
+private:
+    void bindCoverage() const {
+        const bool covers = (features_ & kAlphaMask) != 0 && samples_ > 1;
+        setEnabled(GL_SAMPLE_ALPHA_TO_COVERAGE, covers);
+        setEnabled(GL_SAMPLE_ALPHA_TO_ONE, covers);
+        const bool blends = (features_ & kAlphaBlend) != 0;
+        setEnabled(GL_BLEND, blends);
+        glDepthMask(blends ? GL_FALSE : GL_TRUE);
+    }
+
+    void bindMaterial() const {
+        const GpuMaterial& material = scene_.materials[material_];
+        glBindBufferRange(GL_UNIFORM_BUFFER,
+                          kMaterialBinding,
+                          scene_.material_blocks.name(),
+                          material.block_offset,
+                          sizeof(MaterialBlock));
+        for (GLuint unit = 0; unit < kMaterialMaps; ++unit) {
+            const MaterialMap& map = material.maps[unit];
+            glActiveTexture(GL_TEXTURE0 + unit);
+            glBindTexture(GL_TEXTURE_2D,
+                          map.texture != 0 ? map.texture : scene_.renderer->whiteTexture());
+            glBindSampler(unit, map.sampler);
+        }
+    }
+
+    void bindFacing(const DrawItem& item) const {
+        const Mirroring mirroring = scene_.submeshes[item.submesh].mirroring;
+        const bool culls = options_.back_faces == BackFaces::PerMaterial &&
+                           !scene_.materials[item.material].double_sided;
+        const bool is_mixed = mirroring == Mirroring::Mixed;
+        setEnabled(GL_CULL_FACE, culls && !is_mixed);
+        glFrontFace(mirroring == Mirroring::All ? GL_CW : GL_CCW);
+        if (program_->cull_back >= 0)
+            glUniform1f(program_->cull_back, culls && is_mixed ? 1.0f : 0.0f);
+    }
+
+    const GpuSceneState& scene_;
+    const ViewOptions& options_;
+    int samples_ = 1;
+    const SceneProgram* program_ = nullptr;
+    std::uint32_t features_ = 0;
+    std::uint32_t material_ = kNone;
+};
+
+void drawItem(const DrawItem& item) {
+    const auto instances = static_cast<GLsizei>(item.kept_instances);
+    const GLenum mode = glMode(item.mode);
+    if (item.geometry->index_count > 0)
+        glDrawElementsInstanced(mode,
+                                static_cast<GLsizei>(item.geometry->index_count),
+                                item.geometry->index_type,
+                                nullptr,
+                                instances);
+    else
+        glDrawArraysInstanced(
+            mode, 0, static_cast<GLsizei>(item.geometry->vertex_count), instances);
+}
+
+void setFixedState() {
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_STENCIL_TEST);
+    glEnable(GL_MULTISAMPLE);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LEQUAL);
+    glDepthMask(GL_TRUE);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    glCullFace(GL_BACK);
+    glPointSize(4.0f);
+    glBlendEquation(GL_FUNC_ADD);
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+}
+
+void resetState() {
+    glBindVertexArray(0);
+    glUseProgram(0);
+    glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+    glDisable(GL_SAMPLE_ALPHA_TO_ONE);
+    glDisable(GL_BLEND);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+    glFrontFace(GL_CCW);
+    for (GLuint unit = 0; unit < kMaterialMaps; ++unit) {
+        glBindSampler(unit, 0);
+        glActiveTexture(GL_TEXTURE0 + unit);
+        glBindTexture(GL_TEXTURE_2D, 0);
+    }
+    glActiveTexture(GL_TEXTURE0);
+}
+
+} // namespace
+
+void drawBackground(const RendererState& renderer, const ViewOptions& options) {
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDepthMask(GL_TRUE);
+    const glm::vec3 color = options.background_srgb;
+    if (options.background == Background::Transparent)
+        glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+    else
+        glClearColor(color.r, color.g, color.b, 1.0f);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    if (options.background != Background::Gradient)
+        return;
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_BLEND);
+    glDisable(GL_CULL_FACE);
+    glUseProgram(renderer.backgroundProgram().name());
+    const glm::vec3 lower = color * 0.82f;
+    const glm::vec3 upper = glm::min(color * 1.22f, glm::vec3(1.0f));
+    glUniform3fv(renderer.backgroundLower(), 1, glm::value_ptr(lower));
+    glUniform3fv(renderer.backgroundUpper(), 1, glm::value_ptr(upper));
+    glBindVertexArray(renderer.emptyVertexArray());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glBindVertexArray(0);
+}
+
+Result<DrawTotals> drawLod(const View::Input& input, int samples) {
+    const GpuSceneState& scene = input.scene->state();
+    const LodState& lod = *input.lod->state();
+    setFixedState();
+    const FrameBlock block = frameBlock(input, scene.frame, samples);
+    glBindBuffer(GL_UNIFORM_BUFFER, scene.renderer->frameBuffer());
+    glBufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STREAM_DRAW);
+    glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, scene.renderer->frameBuffer());
+    DrawTotals totals;
+    ItemBinder binder(scene, input.options, samples);
+    Result<void> bound;
+    for (const DrawItem& item : lod.items) {
+        if (!scene.hidden.empty() && scene.hidden[item.submesh])
+            continue;
+        bound = binder.bind(item);
+        if (!bound)
+            break;
+        drawItem(item);
+        ++totals.draw_calls;
+        if (item.mode == PrimitiveMode::Triangles)
+            totals.triangles += std::uint64_t(item.geometry->index_count / 3) * item.kept_instances;
+    }
+    resetState();
+    if (!bound)
+        return tl::unexpected(bound.error());
+    return totals;
+}
+
+} // namespace lodestone

@@ -1,0 +1,256 @@
+#include "render/gpu_geometry.h"
+
+#include "render/renderer_state.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <span>
+
+namespace lodestone {
+
+namespace {
+
+constexpr std::size_t kFrameSamples = 4096;
+constexpr double kFarthest = 1e15; // local units; beyond, products overflow a float
+
+double median(std::vector<double>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+const Attribute* usable(const Geometry& geometry, std::string_view semantic, int components) {
+    const Attribute* attribute = findAttribute(geometry.attributes, semantic);
+    if (attribute == nullptr || attribute->components < components ||
+        attribute->bytes.size() < attribute->stride() * geometry.positions.size())
+        return nullptr;
+    return attribute;
+}
+
+float finite(float value) {
+    return std::isfinite(value) ? value : 0.0f;
+}
+
+// Writes the first `components` components of an attribute as floats into interleaved vertices.
+struct Interleaved {
+    std::span<std::byte> bytes;
+    std::size_t stride = 0;
+    std::size_t offset = 0;
+};
+
+void putFloats(const Interleaved& out, const Attribute& attribute, std::size_t components) {
+    const std::size_t count = out.bytes.size() / out.stride;
+    const bool copy = attribute.type == ComponentType::Float32;
+    for (std::size_t v = 0; v < count; ++v) {
+        float values[4] = {0.0f, 0.0f, 0.0f, 0.0f};
+        if (copy)
+            std::memcpy(
+                values, &attribute.bytes[v * attribute.stride()], components * sizeof(float));
+        else
+            for (std::size_t c = 0; c < components; ++c)
+                values[c] = attributeValue(attribute, v, c);
+        for (std::size_t c = 0; c < components; ++c)
+            values[c] = finite(values[c]);
+        std::memcpy(&out.bytes[v * out.stride + out.offset], values, components * sizeof(float));
+    }
+}
+
+void putColors(const Interleaved& out, const Attribute& attribute) {
+    const std::size_t count = out.bytes.size() / out.stride;
+    for (std::size_t v = 0; v < count; ++v) {
+        std::uint16_t values[4] = {0, 0, 0, 65535};
+        for (std::size_t c = 0; c < std::min<std::size_t>(attribute.components, 4); ++c) {
+            const float value = std::clamp(finite(attributeValue(attribute, v, c)), 0.0f, 1.0f);
+            values[c] = static_cast<std::uint16_t>(std::lround(value * 65535.0f));
+        }
+        std::memcpy(&out.bytes[v * out.stride + out.offset], values, sizeof values);
+    }
+}
+
+void putPositions(const Interleaved& out, const Geometry& geometry, const LocalFrame& frame) {
+    const double inverse = 1.0 / frame.scale;
+    for (std::size_t v = 0; v < geometry.positions.size(); ++v) {
+        const glm::dvec3 local = (glm::dvec3(geometry.positions[v]) - frame.center) * inverse;
+        const glm::vec3 position(glm::clamp(local, glm::dvec3(-kFarthest), glm::dvec3(kFarthest)));
+        std::memcpy(&out.bytes[v * out.stride + out.offset], &position, sizeof position);
+    }
+}
+
+void uploadIndices(const Geometry& geometry, GpuGeometry& gpu) {
+    gpu.index_count = static_cast<std::uint32_t>(geometry.indices.size());
+    if (geometry.indices.empty())
+        return;
+    gpu.indices = GlBuffer::create();
+    // Not GL_ELEMENT_ARRAY_BUFFER: that would change whatever vertex array is bound.
+    glBindBuffer(GL_COPY_WRITE_BUFFER, gpu.indices.name());
+    const auto put = [&](const void* data, std::size_t size_bytes) {
+        glBufferData(
+            GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(size_bytes), data, GL_STATIC_DRAW);
+        gpu.bytes += size_bytes;
+    };
+    if (geometry.positions.size() <= 65536) {
+        const std::vector<std::uint16_t> narrow(geometry.indices.begin(), geometry.indices.end());
+        gpu.index_type = GL_UNSIGNED_SHORT;
+        put(narrow.data(), narrow.size() * sizeof(std::uint16_t));
+    } else {
+        gpu.index_type = GL_UNSIGNED_INT;
+        put(geometry.indices.data(), geometry.indices.size() * sizeof(std::uint32_t));
+    }
+}
+
+} // namespace
+
+LocalFrame localFrame(const Submesh& submesh) {
+    std::size_t vertex_count = 0;
+    for (const Primitive& primitive : submesh.primitives)
+        vertex_count += primitive.geometry->positions.size();
+    const std::size_t step = vertex_count / kFrameSamples + 1;
+    std::vector<double> axis[3];
+    std::size_t index = 0;
+    for (const Primitive& primitive : submesh.primitives)
+        for (const glm::vec3& position : primitive.geometry->positions)
+            if (index++ % step == 0)
+                for (int c = 0; c < 3; ++c)
+                    axis[c].push_back(position[c]);
+    LocalFrame frame;
+    if (axis[0].empty())
+        return frame;
+    double scale = 0.0;
+    for (int c = 0; c < 3; ++c) {
+        frame.center[c] = median(axis[c]);
+        for (double& value : axis[c])
+            value = std::abs(value - frame.center[c]);
+        scale = std::max(scale, median(axis[c]));
+    }
+    if (scale > 0.0 && std::isfinite(scale))
+        frame.scale = scale;
+    return frame;
+}
+
+std::shared_ptr<const GpuGeometry> uploadGeometry(const GeometryPtr& geometry,
+                                                  const LocalFrame& frame) {
+    auto gpu = std::make_shared<GpuGeometry>();
+    gpu->source = geometry;
+    const Attribute* normal = usable(*geometry, "NORMAL", 3);
+    const Attribute* uv0 = usable(*geometry, "TEXCOORD_0", 2);
+    const Attribute* uv1 = usable(*geometry, "TEXCOORD_1", 2);
+    const Attribute* color = usable(*geometry, "COLOR_0", 3);
+    VertexLayout& layout = gpu->layout;
+    std::size_t stride = sizeof(glm::vec3);
+    const auto reserve = [&](const Attribute* attribute, Feature feature, std::size_t size_bytes) {
+        const std::size_t offset = stride;
+        if (attribute != nullptr) {
+            layout.features |= feature;
+            stride += size_bytes;
+        }
+        return offset;
+    };
+    layout.normal_offset = reserve(normal, kHasNormal, sizeof(glm::vec3));
+    layout.uv0_offset = reserve(uv0, kHasUv0, sizeof(glm::vec2));
+    layout.uv1_offset = reserve(uv1, kHasUv1, sizeof(glm::vec2));
+    layout.color_offset = reserve(color, kHasColor, 4 * sizeof(std::uint16_t));
+    layout.stride_bytes = static_cast<GLsizei>(stride);
+
+    std::vector<std::byte> bytes(stride * geometry->positions.size());
+    putPositions({bytes, stride, 0}, *geometry, frame);
+    if (normal != nullptr)
+        putFloats({bytes, stride, layout.normal_offset}, *normal, 3);
+    if (uv0 != nullptr)
+        putFloats({bytes, stride, layout.uv0_offset}, *uv0, 2);
+    if (uv1 != nullptr)
+        putFloats({bytes, stride, layout.uv1_offset}, *uv1, 2);
+    if (color != nullptr)
+        putColors({bytes, stride, layout.color_offset}, *color);
+
+    gpu->vertex_count = static_cast<std::uint32_t>(geometry->positions.size());
+    gpu->bytes = bytes.size();
+    gpu->vertices = GlBuffer::create();
+    glBindBuffer(GL_ARRAY_BUFFER, gpu->vertices.name());
+    glBufferData(
+        GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes.size()), bytes.data(), GL_STATIC_DRAW);
+    uploadIndices(*geometry, *gpu);
+    return gpu;
+}
+
+std::shared_ptr<const InstanceBuffer>
+uploadInstances(const InstanceSource& source,
+                std::shared_ptr<const std::vector<std::uint32_t>> order) {
+    auto buffer = std::make_shared<InstanceBuffer>();
+    const std::size_t count = order ? order->size() : source.range.size();
+    std::vector<InstanceRow> rows(count);
+    const LocalFrame& local = source.local_frame;
+    const double linear_scale = local.scale / source.scene_frame.radius;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t id =
+            order ? (*order)[i] : source.range.begin + static_cast<std::uint32_t>(i);
+        const glm::dmat4& world = source.scene.instances[id].transform;
+        const glm::dmat3 linear = glm::dmat3(world) * linear_scale;
+        const glm::dvec3 center(world * glm::dvec4(local.center, 1.0));
+        const glm::dvec3 origin = (center - source.scene_frame.center) / source.scene_frame.radius;
+        rows[i].id = id;
+        for (int r = 0; r < 3; ++r) {
+            const glm::vec4 row(linear[0][r], linear[1][r], linear[2][r], origin[r]);
+            const bool is_finite = std::isfinite(row.x + row.y + row.z + row.w);
+            rows[i].rows[r] = is_finite ? row : glm::vec4(0.0f);
+        }
+    }
+    buffer->order = std::move(order);
+    buffer->count = static_cast<std::uint32_t>(count);
+    buffer->bytes = count * sizeof(InstanceRow);
+    buffer->rows = GlBuffer::create();
+    glBindBuffer(GL_ARRAY_BUFFER, buffer->rows.name());
+    glBufferData(
+        GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(buffer->bytes), rows.data(), GL_STATIC_DRAW);
+    return buffer;
+}
+
+GlVertexArray makeVertexArray(const GpuGeometry& geometry, const InstanceBuffer& instances) {
+    GlVertexArray array = GlVertexArray::create();
+    glBindVertexArray(array.name());
+    glBindBuffer(GL_ARRAY_BUFFER, geometry.vertices.name());
+    const VertexLayout& layout = geometry.layout;
+    const auto attribute = [&](GLuint index, GLint size, GLenum type, std::size_t offset) {
+        glEnableVertexAttribArray(index);
+        glVertexAttribPointer(index,
+                              size,
+                              type,
+                              type == GL_FLOAT ? GL_FALSE : GL_TRUE,
+                              layout.stride_bytes,
+                              reinterpret_cast<const void*>(offset));
+    };
+    attribute(0, 3, GL_FLOAT, 0);
+    if ((layout.features & kHasNormal) != 0)
+        attribute(1, 3, GL_FLOAT, layout.normal_offset);
+    if ((layout.features & kHasUv0) != 0)
+        attribute(2, 2, GL_FLOAT, layout.uv0_offset);
+    if ((layout.features & kHasUv1) != 0)
+        attribute(3, 2, GL_FLOAT, layout.uv1_offset);
+    if ((layout.features & kHasColor) != 0)
+        attribute(4, 4, GL_UNSIGNED_SHORT, layout.color_offset);
+
+    glBindBuffer(GL_ARRAY_BUFFER, instances.rows.name());
+    for (GLuint row = 0; row < 3; ++row) {
+        glEnableVertexAttribArray(5 + row);
+        glVertexAttribPointer(5 + row,
+                              4,
+                              GL_FLOAT,
+                              GL_FALSE,
+                              sizeof(InstanceRow),
+                              reinterpret_cast<const void*>(row * sizeof(glm::vec4)));
+        glVertexAttribDivisor(5 + row, 1);
+    }
+    glEnableVertexAttribArray(8);
+    glVertexAttribIPointer(8,
+                           1,
+                           GL_UNSIGNED_INT,
+                           sizeof(InstanceRow),
+                           reinterpret_cast<const void*>(offsetof(InstanceRow, id)));
+    glVertexAttribDivisor(8, 1);
+    if (geometry.indices)
+        glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, geometry.indices.name());
+    glBindVertexArray(0);
+    return array;
+}
+
+} // namespace lodestone

@@ -1,0 +1,79 @@
+#pragma once
+// Inside render/ only: vertices and indices of one primitive, and transforms of one submesh.
+#include "render/gl_object.h"
+#include "scene/scene.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace lodestone {
+
+// Vertices are uploaded as (position - center) / scale, so that floats keep their precision far
+// from the origin; transforms undo it. The same for all LODs of a submesh.
+struct LocalFrame {
+    glm::dvec3 center{0.0};
+    double scale = 1.0; // > 0
+};
+
+// From the bulk of the vertices: a far outlier does not coarsen the rest. O(1) samples.
+LocalFrame localFrame(const Submesh& submesh);
+
+struct VertexLayout {
+    GLsizei stride_bytes = 0;
+    std::uint32_t features = 0; // kHasNormal | kHasUv0 | kHasUv1 | kHasColor
+    std::size_t normal_offset = 0;
+    std::size_t uv0_offset = 0;
+    std::size_t uv1_offset = 0;
+    std::size_t color_offset = 0;
+};
+
+struct GpuGeometry {
+    GeometryPtr source; // keeps the identity it is cached by
+    GlBuffer vertices;
+    GlBuffer indices;
+    VertexLayout layout;
+    GLenum index_type = GL_UNSIGNED_INT;
+    std::uint32_t index_count = 0; // 0: drawn without indices
+    std::uint32_t vertex_count = 0;
+    std::uint64_t bytes = 0;
+};
+
+std::shared_ptr<const GpuGeometry> uploadGeometry(const GeometryPtr& geometry,
+                                                  const LocalFrame& frame);
+
+// World to scene units: (p - center) / radius.
+struct SceneFrame {
+    glm::dvec3 center{0.0};
+    double radius = 1.0; // > 0
+};
+
+// One row for each instance: three rows of the 3x4 matrix, then the index in Scene::instances.
+struct InstanceRow {
+    glm::vec4 rows[3];
+    std::uint32_t id = 0;
+};
+
+struct InstanceBuffer {
+    std::shared_ptr<const std::vector<std::uint32_t>> order; // null: the scene's order
+    GlBuffer rows;
+    std::uint32_t count = 0;
+    std::uint64_t bytes = 0;
+};
+
+struct InstanceSource {
+    const Scene& scene;
+    InstanceRange range;
+    SceneFrame scene_frame;
+    LocalFrame local_frame;
+};
+
+// Indices of order that are out of range are an error of the caller (checked by GpuScene::update).
+std::shared_ptr<const InstanceBuffer>
+uploadInstances(const InstanceSource& source,
+                std::shared_ptr<const std::vector<std::uint32_t>> order);
+
+// Attributes 0..4 from the geometry, 5..8 from the instances, indices bound.
+GlVertexArray makeVertexArray(const GpuGeometry& geometry, const InstanceBuffer& instances);
+
+} // namespace lodestone

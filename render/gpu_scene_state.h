@@ -1,0 +1,99 @@
+#pragma once
+// Inside render/ only: what GpuScene and LodHandle own.
+#include "render/gpu_geometry.h"
+#include "render/gpu_scene.h"
+#include "render/gpu_texture.h"
+#include "render/renderer_state.h"
+
+#include <array>
+#include <map>
+#include <unordered_map>
+
+namespace lodestone {
+
+// Layout of the uniform block Material in shaders/common.glsl (std140).
+struct MaterialBlock {
+    glm::vec4 base_color{1.0f};
+    glm::vec4 emissive{0.0f}; // w: alpha cut-off
+    glm::vec4 factors{0.0f};  // metallic, roughness, normal scale, occlusion strength
+    std::array<glm::vec4, kMaterialMaps> uv_u{};
+    std::array<glm::vec4, kMaterialMaps> uv_v{};
+};
+
+struct MaterialMap {
+    GLuint texture = 0;
+    GLuint sampler = 0;
+};
+
+struct GpuMaterial {
+    std::uint32_t features = 0; // maps, alpha, unlit
+    bool double_sided = false;
+    std::array<MaterialMap, kMaterialMaps> maps;
+    GLintptr block_offset = 0; // in GpuSceneState::material_blocks
+};
+
+enum class Mirroring : std::uint8_t { None, All, Mixed };
+
+struct GpuSubmesh {
+    LocalFrame frame;
+    InstanceRange range;
+    Mirroring mirroring = Mirroring::None;
+    glm::vec4 id_color{1.0f}; // linear
+};
+
+// Something drawn with one call.
+struct DrawItem {
+    std::shared_ptr<const GpuGeometry> geometry;
+    std::shared_ptr<const InstanceBuffer> instances;
+    GlVertexArray vertex_array;
+    std::uint32_t submesh = 0;
+    std::uint32_t material = 0; // in GpuSceneState::materials
+    PrimitiveMode mode = PrimitiveMode::Triangles;
+    std::uint32_t kept_instances = 0;
+};
+
+struct LodState {
+    std::vector<DrawItem> items; // opaque ones first
+    std::uint64_t revision = 0;
+    std::uint64_t triangles = 0;
+};
+
+class GpuSceneState {
+public:
+    GpuSceneState(std::shared_ptr<RendererState> shared, ScenePtr source);
+    void open();
+
+    Result<UploadReport> update(std::unique_ptr<LodState>& handle, const Lod& lod);
+    std::uint64_t memoryBytes() const;
+
+    std::shared_ptr<RendererState> renderer;
+    ScenePtr scene;
+    Bounds bounds;
+    SceneFrame frame;
+    std::vector<GpuSubmesh> submeshes;  // [scene.submeshes]
+    std::vector<GpuMaterial> materials; // [scene.materials + 1]; the last is glTF's default
+    GlBuffer material_blocks;
+    std::vector<std::string> notes;
+    std::vector<bool> hidden; // [submeshes] or empty
+    std::uint64_t revision = 0;
+
+private:
+    void openSubmeshes();
+    void openMaterials();
+    Result<void> check(const Lod& lod) const;
+    std::shared_ptr<const GpuGeometry> geometry(const GeometryPtr& source, std::uint32_t submesh);
+    std::shared_ptr<const InstanceBuffer>
+    instances(std::uint32_t submesh,
+              const std::shared_ptr<const std::vector<std::uint32_t>>& order);
+    void forgetExpired();
+
+    std::vector<GpuTexture> textures_;
+    std::uint64_t texture_bytes_ = 0;
+    template <class Key, class Value>
+    using Cache = std::map<std::pair<const Key*, std::uint32_t>, std::weak_ptr<const Value>>;
+    Cache<Geometry, GpuGeometry> geometries_;
+    Cache<std::vector<std::uint32_t>, InstanceBuffer> instances_;
+    UploadReport report_; // of the update that is running
+};
+
+} // namespace lodestone

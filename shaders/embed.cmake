@@ -1,0 +1,10 @@
+# cmake -DOUTPUT=file.cpp -DSOURCES=a;b;c -P embed.cmake: shader texts as C++ string literals.
+set(text "#include \"render/shader.h\"\n\nnamespace lodestone {\n\n")
+string(APPEND text "const std::array<ShaderText, kShaderFiles> kShaderTexts{{\n")
+foreach(source IN LISTS SOURCES)
+    file(READ "${source}" body)
+    get_filename_component(name "${source}" NAME)
+    string(APPEND text "    {\"${name}\", R\"glsl(${body})glsl\"},\n")
+endforeach()
+string(APPEND text "}};\n\n} // namespace lodestone\n")
+file(WRITE "${OUTPUT}" "${text}")
