@@ -1,6 +1,7 @@
 #include "scene/assimp/assimp_import.h"
 
 #include "scene/assimp/folder_io.h"
+#include "scene/assimp/precheck.h"
 #include "scene/assimp/scene_convert.h"
 
 #include <algorithm>
@@ -10,6 +11,23 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <cctype>
+#include <fstream>
+#include <stdexcept>
+
+#ifdef __ELF__
+namespace Assimp {
+
+// Packaged builds of assimp end the process where a damaged file breaks an assumption. This
+// definition takes the place of the library's own, so that such a file is an error like others.
+// The declaration is the library's.
+[[noreturn]] void aiAssertViolation(const char* expression, const char* /*file*/, int /*line*/);
+
+void aiAssertViolation(const char* expression, const char* /*file*/, int /*line*/) {
+    throw std::runtime_error(std::string("contradiction: ") + expression);
+}
+
+} // namespace Assimp
+#endif
 
 namespace lodestone {
 
@@ -36,19 +54,35 @@ private:
     const JobContext& job_;
 };
 
-// A library's words, fit for one line.
+void configure(Assimp::Importer& importer) {
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
+}
+
+// Words of a library or of a file, fit for one line.
 std::string oneLine(std::string text) {
     std::ranges::replace_if(
         text, [](unsigned char letter) { return std::iscntrl(letter) != 0; }, ' ');
     while (!text.empty() && (text.back() == ' ' || text.back() == '.'))
         text.pop_back();
-    return text.substr(0, 200);
+    return text.substr(0, 300);
 }
 
-void configure(Assimp::Importer& importer) {
-    importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
-    importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
-    importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
+Result<void> precheckFile(const std::filesystem::path& path) {
+    const std::string name = path.filename().string();
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(path, error);
+    std::ifstream stream(path, std::ios::binary);
+    if (error || !stream)
+        return badInput(name + ": cannot be opened; check the path and its permissions");
+    std::string bytes(size, '\0');
+    stream.read(bytes.data(), static_cast<std::streamsize>(size));
+    if (static_cast<std::uintmax_t>(stream.gcount()) != size)
+        return badInput(name + ": cannot be read to its end; check the disk");
+    if (const Result<void> ok = precheck(extensionOf(path), bytes); !ok)
+        return badInput(name + ": " + oneLine(ok.error().message));
+    return {};
 }
 
 Result<ScenePtr> readScene(const std::filesystem::path& path, const JobContext& job) {
@@ -72,6 +106,8 @@ Result<ScenePtr> readScene(const std::filesystem::path& path, const JobContext& 
 Result<ScenePtr> importWithAssimp(const std::filesystem::path& path, const JobContext& job) {
     const std::string name = path.filename().string();
     try {
+        if (const Result<void> ok = precheckFile(path); !ok)
+            return tl::unexpected(ok.error());
         return readScene(path, job);
     } catch (const std::bad_alloc&) {
         return badInput(name + ": out of memory while reading; the file is damaged or too large");
