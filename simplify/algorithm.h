@@ -4,6 +4,7 @@
 #include "scene/job_context.h"
 #include "scene/result.h"
 #include "simplify/lod_source.h"
+
 #include <map>
 #include <string>
 
@@ -19,7 +20,7 @@ struct ParameterInfo {
     Kind kind = Kind::Number;
     double minimum = 0.0;
     double maximum = 1.0;
-    double fallback = 0.0; // default
+    double fallback = 0.0;                 // default
     std::vector<std::string_view> choices; // Kind::Choice: value is the index
     bool logarithmic = false;              // slider scale
 };
@@ -32,8 +33,8 @@ enum class Family : std::uint8_t {
 };
 
 struct Algorithm {
-    std::string_view id;   // "ias"
-    std::string_view name; // "Instance-aware (IAS)"
+    std::string_view id;         // "ias"
+    std::string_view name;       // "Instance-aware (IAS)"
     std::string_view short_name; // lane header: "IAS"
     std::string_view paper;      // author, year
     std::string_view summary;    // one sentence
@@ -52,8 +53,10 @@ std::span<const Algorithm> algorithms();
 const Algorithm* findAlgorithm(std::string_view id); // nullptr if unknown
 
 // The value of a parameter, its default where missing.
-double parameterValue(const Algorithm& algorithm, const ParameterValues& values, std::string_view id);
+double
+parameterValue(const Algorithm& algorithm, const ParameterValues& values, std::string_view id);
 // Usage error naming the parameter and its range or choices.
-Result<double> parseParameter(const Algorithm& algorithm, std::string_view id, std::string_view text);
+Result<double>
+parseParameter(const Algorithm& algorithm, std::string_view id, std::string_view text);
 
 } // namespace lodestone

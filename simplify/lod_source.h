@@ -21,14 +21,14 @@ struct Resolved {
 // Immutable and thread-safe. Position 0 is the full scene, rising positions are coarser, every
 // position is a prefix of one order of steps, so LODs are nested and both directions are equal.
 class LodSource {
-  public:
+public:
     virtual ~LodSource() = default;
 
     // The scene whose submeshes the LODs replace: the input, or its expansion (Quadric).
     virtual const ScenePtr& scene() const = 0;
-    virtual std::uint64_t positionCount() const = 0; // >= 1
+    virtual std::uint64_t positionCount() const = 0;                     // >= 1
     virtual std::uint64_t trianglesAt(std::uint64_t position) const = 0; // O(1) or O(log)
-    virtual double errorAt(std::uint64_t position) const = 0; // estimate, % of the diagonal
+    virtual double errorAt(std::uint64_t position) const = 0;   // estimate, % of the diagonal
     virtual LodShape shapeAt(std::uint64_t position) const = 0; // O(submeshes * log steps)
     // bytes: only used for Target::Kind::Bytes; must be made for scene().
     virtual Resolved resolve(const Target& target, const ByteModel& bytes) const = 0;

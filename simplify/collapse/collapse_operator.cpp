@@ -1,5 +1,6 @@
 // The edge-collapse operator: what may collapse, what dies, what is logged.
 #include "simplify/collapse/component_mesh.h"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -82,9 +83,8 @@ bool ComponentMesh::facesStayUpright(std::uint32_t moved,
         const float product = dot(before, after);
         const float limit = flip_cosine2_ * before2 * dot(after, after);
         // product >= cosine * |before| |after|, without the roots
-        const bool upright =
-            flip_sharp_ ? product > 0.0f && product * product >= limit
-                        : product >= 0.0f || product * product <= limit;
+        const bool upright = flip_sharp_ ? product > 0.0f && product * product >= limit
+                                         : product >= 0.0f || product * product <= limit;
         if (!upright)
             return false;
     }
@@ -153,8 +153,8 @@ void ComponentMesh::killFace(std::uint32_t face) {
     --live_faces_;
 }
 
-// Faces on the edge die, b's others become a's. Fills merged_wedges_ with {dead face, 0} when wedges
-// are trivial; mergeWedges() fills it anew otherwise.
+// Faces on the edge die, b's others become a's. Fills merged_wedges_ with {dead face, 0} when
+// wedges are trivial; mergeWedges() fills it anew otherwise.
 void ComponentMesh::mergeFaces(std::uint32_t a, std::uint32_t b) {
     merged_wedges_.clear();
     scratch_.clear();

@@ -1,4 +1,5 @@
 #include "simplify/collapse/complex.h"
+
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -23,7 +24,7 @@ std::uint32_t hashPosition(const glm::vec3& p, std::uint32_t block) {
 
 // Open addressing table of ids, sized once.
 class IdTable {
-  public:
+public:
     explicit IdTable(std::size_t capacity)
         : slots_(std::bit_ceil(std::max<std::size_t>(16, capacity * 2)), kNone) {}
 
@@ -39,13 +40,13 @@ class IdTable {
         }
     }
 
-  private:
+private:
     std::vector<std::uint32_t> slots_;
 };
 
 // Block of each vertex of a primitive, walked in rising order.
 class BlockCursor {
-  public:
+public:
     explicit BlockCursor(const std::vector<std::uint32_t>& starts) : starts_(starts) {}
 
     std::uint32_t at(std::uint32_t vertex) {
@@ -54,7 +55,7 @@ class BlockCursor {
         return next_;
     }
 
-  private:
+private:
     const std::vector<std::uint32_t>& starts_;
     std::uint32_t next_ = 0;
 };
@@ -74,7 +75,7 @@ bool sameAttributes(const Geometry& geometry, std::uint32_t a, std::uint32_t b) 
 
 struct Welder {
     Complex& complex;
-    std::vector<std::uint32_t> blocks; // [welded vertices]
+    std::vector<std::uint32_t> blocks;      // [welded vertices]
     std::vector<std::uint32_t> first_wedge; // [welded vertices] of the current primitive
     std::vector<std::uint32_t> next_wedge;  // [wedges] others at the same place
     IdTable table;

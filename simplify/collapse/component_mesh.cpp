@@ -1,4 +1,5 @@
 #include "simplify/collapse/component_mesh.h"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -18,10 +19,7 @@ ComponentMesh::ComponentMesh(const Complex& complex,
                              const InstanceWeights& weights,
                              const WedgeAttributes& attributes,
                              const CollapseOptions& options)
-    : complex_(complex),
-      weights_(weights),
-      attributes_(attributes),
-      options_(options),
+    : complex_(complex), weights_(weights), attributes_(attributes), options_(options),
       local_of_vertex_(complex.positions.size(), kNone),
       local_of_wedge_(complex.wedge_source.size(), kNone) {
     const double cosine = std::cos(options.flip_angle_deg * std::numbers::pi / 180.0);
@@ -101,7 +99,8 @@ void ComponentMesh::buildReferences() {
     const std::size_t wedges = log_.wedges.size();
     log_.wedge_death.assign(wedges, kNone);
     log_.wedge_parent.assign(wedges, kNone);
-    const bool trivial = wedges == vertices_.size() && attributes_.size == 0 && !attributes_.carries;
+    const bool trivial =
+        wedges == vertices_.size() && attributes_.size == 0 && !attributes_.carries;
     wedge_refs_.clear();
     if (trivial) { // then wedge and vertex ids are equal: both were numbered by first use
         face_wedges_.clear();
@@ -111,8 +110,7 @@ void ComponentMesh::buildReferences() {
     wedge_carrier_.resize(wedges);
     wedge_primitive_.resize(wedges);
     for (std::uint32_t f = 0; f < faces_.size(); ++f) {
-        const auto primitive =
-            static_cast<std::uint32_t>(complex_.primitiveOfFace(log_.faces[f]));
+        const auto primitive = static_cast<std::uint32_t>(complex_.primitiveOfFace(log_.faces[f]));
         for (const std::uint32_t w : face_wedges_[f]) {
             ++wedge_refs_[w];
             wedge_primitive_[w] = primitive;
@@ -223,8 +221,12 @@ void ComponentMesh::addBoundaryQuadric(std::uint32_t a, std::uint32_t b, std::ui
             plane.weight);
 }
 
-double ComponentMesh::costScale() const { return scale_ * scale_ * scale_ * scale_; }
+double ComponentMesh::costScale() const {
+    return scale_ * scale_ * scale_ * scale_;
+}
 
-CollapseLog ComponentMesh::takeLog() { return std::move(log_); }
+CollapseLog ComponentMesh::takeLog() {
+    return std::move(log_);
+}
 
 } // namespace lodestone

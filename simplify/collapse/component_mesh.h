@@ -3,15 +3,15 @@
 // picking edges shares, and the log that a sequence is made of.
 #include "scene/job_context.h"
 #include "simplify/collapse/complex.h"
-#include "simplify/collapse/quadric.h"
 #include "simplify/collapse/instance_weights.h"
+#include "simplify/collapse/quadric.h"
 
 namespace lodestone {
 
 struct CollapseOptions {
-    double boundary_weight = 1.0;  // x the squared edge length, >= 0
+    double boundary_weight = 1.0;    // x the squared edge length, >= 0
     bool boundary_by_length = false; // paper-literal: weight by length instead of squared length
-    double flip_angle_deg = 80.0;  // collapses that turn a face further are rejected, 0..180
+    double flip_angle_deg = 80.0;    // collapses that turn a face further are rejected, 0..180
     // Components with more faces are picked in near-greedy passes down to the second number.
     std::uint32_t near_greedy_above = 24'000;
     std::uint32_t exact_below = 6'000;
@@ -20,24 +20,27 @@ struct CollapseOptions {
 // Float attributes of wedges that are interpolated (normals, texture coordinates, colours);
 // the rest is taken from the nearest original wedge.
 struct WedgeAttributes {
-    std::uint32_t size = 0;     // floats a wedge
-    std::vector<float> values;  // [wedges * size], all wedges of the complex
+    std::uint32_t size = 0;    // floats a wedge
+    std::vector<float> values; // [wedges * size], all wedges of the complex
+
     struct Slot {
         std::uint32_t offset = 0;
         std::uint32_t components = 0;
         bool unit = false;    // renormalise after interpolation
         bool tangent = false; // xyz unit, w a sign
     };
-    std::vector<std::vector<Slot>> slots; // [primitives][attributes], components 0: not interpolated
+
+    std::vector<std::vector<Slot>>
+        slots;            // [primitives][attributes], components 0: not interpolated
     bool carries = false; // some attribute or morph target is taken from the nearest wedge
 };
 
 // What happened to one component, in local ids; step numbers start at 1.
 struct CollapseLog {
-    std::vector<float> cost;    // [steps] quadric error, in the complex's units, unscaled weights
-    std::vector<float> error2;  // [steps] squared distance it stands for, in the complex's units
-    std::vector<std::uint32_t> faces;      // [faces] ids in the complex
-    std::vector<std::uint32_t> face_death; // [faces] step, kNone: survives
+    std::vector<float> cost;   // [steps] quadric error, in the complex's units, unscaled weights
+    std::vector<float> error2; // [steps] squared distance it stands for, in the complex's units
+    std::vector<std::uint32_t> faces;        // [faces] ids in the complex
+    std::vector<std::uint32_t> face_death;   // [faces] step, kNone: survives
     std::vector<std::uint32_t> wedges;       // [wedges] ids in the complex
     std::vector<std::uint32_t> wedge_death;  // [wedges] step, kNone: survives
     std::vector<std::uint32_t> wedge_parent; // [wedges] the wedge it became, kNone: just gone
@@ -59,7 +62,7 @@ enum class Strictness : std::uint8_t {
 };
 
 class ComponentMesh {
-  public:
+public:
     struct Vertex {
         Float3 position; // relative to origin, over scale
         Quadric quadric;
@@ -80,12 +83,17 @@ class ComponentMesh {
     void load(std::size_t component);
 
     std::size_t vertexCount() const { return vertices_.size(); }
+
     std::uint32_t liveFaces() const { return live_faces_; }
+
     const Vertex& vertex(std::uint32_t v) const { return vertices_[v]; }
+
     bool alive(std::uint32_t v) const { return vertices_[v].refs_count > 0; }
+
     bool movable(std::uint32_t a, std::uint32_t b) const {
         return !vertices_[a].locked && !vertices_[b].locked;
     }
+
     Placement place(std::uint32_t a, std::uint32_t b) const {
         return placeEdge(vertices_[a].quadric,
                          vertices_[b].quadric,
@@ -97,13 +105,15 @@ class ComponentMesh {
     void forNeighbours(std::uint32_t v, Visit visit);
 
     // Collapses b into a at the placement if strictness allows, and logs the step.
-    bool tryCollapse(std::uint32_t a, std::uint32_t b, const Placement& placement,
+    bool tryCollapse(std::uint32_t a,
+                     std::uint32_t b,
+                     const Placement& placement,
                      Strictness strictness);
 
     CollapseLog takeLog();
     double costScale() const; // x a logged cost: cost in the submesh's own units, unscaled weights
 
-  private:
+private:
     using Corners = std::array<std::uint32_t, 3>;
 
     void buildVertices(std::size_t component);
@@ -128,7 +138,9 @@ class ComponentMesh {
     void releaseWedge(std::uint32_t wedge);
     void addVersion(std::uint32_t wedge, Float3 position);
     void blendValues(std::uint32_t into, std::uint32_t from, float t);
+
     std::uint32_t nextStamp() { return ++stamp_; }
+
     std::uint32_t step() const { return log_.stepCount(); }
 
     const Complex& complex_;
@@ -141,16 +153,16 @@ class ComponentMesh {
     glm::dvec3 origin_{0.0};
     double scale_ = 1.0;
     std::vector<Vertex> vertices_;
-    std::vector<Corners> faces_;       // [faces] local vertices; dead: face_death set
-    std::vector<Corners> face_wedges_; // [faces] local wedges; empty while wedges are trivial
-    std::vector<std::uint32_t> refs_;  // faces of each vertex
-    std::vector<std::uint32_t> wedge_refs_;    // [wedges] live corners; empty while trivial
-    std::vector<std::uint32_t> wedge_carrier_; // [wedges]
-    std::vector<float> values_;                // [wedges * size]
+    std::vector<Corners> faces_;            // [faces] local vertices; dead: face_death set
+    std::vector<Corners> face_wedges_;      // [faces] local wedges; empty while wedges are trivial
+    std::vector<std::uint32_t> refs_;       // faces of each vertex
+    std::vector<std::uint32_t> wedge_refs_; // [wedges] live corners; empty while trivial
+    std::vector<std::uint32_t> wedge_carrier_;   // [wedges]
+    std::vector<float> values_;                  // [wedges * size]
     std::vector<std::uint32_t> wedge_primitive_; // [wedges]
     std::uint32_t live_faces_ = 0;
 
-    std::vector<std::uint32_t> mark_; // [vertices] stamp
+    std::vector<std::uint32_t> mark_;      // [vertices] stamp
     std::vector<std::uint32_t> mark_face_; // [vertices] a face on the marked edge
     std::uint32_t stamp_ = 0;
     std::vector<std::uint32_t> local_of_vertex_; // [complex vertices], kNone outside load

@@ -1,4 +1,5 @@
 #include "simplify/collapse/component_mesh.h"
+
 #include <algorithm>
 #include <bit>
 
@@ -22,7 +23,7 @@ struct Later {
 };
 
 class LazyHeap {
-  public:
+public:
     explicit LazyHeap(ComponentMesh& mesh) : mesh_(mesh) {}
 
     void fill() {
@@ -55,7 +56,7 @@ class LazyHeap {
         return false;
     }
 
-  private:
+private:
     std::uint32_t stampOf(std::uint32_t a, std::uint32_t b) const {
         return mesh_.vertex(a).version + mesh_.vertex(b).version;
     }

@@ -1,4 +1,5 @@
 #include "simplify/collapse/sequence.h"
+
 #include <algorithm>
 
 namespace lodestone {
@@ -24,8 +25,7 @@ Measure measureAt(const CollapseSequence& sequence, const Submesh& submesh, std:
             corner[k] = glm::dvec3(wedgePosition(sequence, submesh, wedge, step));
             measure.bounds.add(corner[k]);
         }
-        measure.area +=
-            0.5 * glm::length(glm::cross(corner[1] - corner[0], corner[2] - corner[0]));
+        measure.area += 0.5 * glm::length(glm::cross(corner[1] - corner[0], corner[2] - corner[0]));
     }
     return measure;
 }
@@ -62,8 +62,8 @@ std::uint32_t floorStep(const CollapseSequence& sequence,
         const glm::dvec3 least = whole.bounds.size() * floors.min_extent;
         const glm::dvec3 size = now.bounds.size();
         const double slack = 1e-9 * whole.bounds.diagonal();
-        return size.x + slack >= least.x && size.y + slack >= least.y && size.z + slack >= least.z &&
-               now.area >= floors.min_area * whole.area;
+        return size.x + slack >= least.x && size.y + slack >= least.y &&
+               size.z + slack >= least.z && now.area >= floors.min_area * whole.area;
     };
     // Extent and area fall slowly at first: look from the coarse end, halving the way back, then
     // bisect. Each look costs what is left of the mesh, and the coarse end is cheap.
@@ -82,7 +82,7 @@ std::uint32_t floorStep(const CollapseSequence& sequence,
         const std::uint32_t middle = good + (bad - good) / 2;
         (passes(middle) ? good : bad) = middle;
     }
-    return good;
+    return std::max(good, sequence.complex.dropped_faces > 0 ? 1u : 0u); // cleaning changes nothing
 }
 
 } // namespace lodestone

@@ -1,4 +1,5 @@
 #include "simplify/collapse/instance_weights.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -16,7 +17,9 @@ glm::dmat3 cofactor(const glm::dmat3& m) {
     return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
 }
 
-double traceOf(const glm::dmat3& m) { return m[0][0] + m[1][1] + m[2][2]; }
+double traceOf(const glm::dmat3& m) {
+    return m[0][0] + m[1][1] + m[2][2];
+}
 
 bool isSimilarity(const glm::dmat3& gram) {
     const double s2 = traceOf(gram) / 3.0;
@@ -70,9 +73,7 @@ TableCell cellOf(const glm::dvec3& n) {
         if (std::abs(n[i]) > std::abs(n[axis]))
             axis = i;
     const double major = n[axis];
-    return {axis,
-            0.5 + 0.5 * n[(axis + 1) % 3] / major,
-            0.5 + 0.5 * n[(axis + 2) % 3] / major};
+    return {axis, 0.5 + 0.5 * n[(axis + 1) % 3] / major, 0.5 + 0.5 * n[(axis + 2) % 3] / major};
 }
 
 } // namespace
@@ -166,8 +167,8 @@ void InstanceWeights::border(const glm::dvec3& edge,
         const glm::dvec3 across = glm::cross(edge, normal);
         const double length = glm::length(across);
         if (length > 0.0)
-            out.push_back({across / length,
-                           by_length ? std::sqrt(length2) * length_ratio_ : length2});
+            out.push_back(
+                {across / length, by_length ? std::sqrt(length2) * length_ratio_ : length2});
         return;
     }
     for (const Group& group : groups_) {
@@ -178,8 +179,7 @@ void InstanceWeights::border(const glm::dvec3& edge,
         const double world2 = glm::dot(edge, group.gram * edge); // |M e|^2
         if (!(stretch2 > 0.0 && across2 > 0.0 && world2 > 0.0))
             continue;
-        const double count =
-            by_length ? group.length_count / std::sqrt(world2) : group.count;
+        const double count = by_length ? group.length_count / std::sqrt(world2) : group.count;
         const double weight = count * across2 / stretch2 / scale_;
         out.push_back({across / std::sqrt(across2), weight});
     }

@@ -1,18 +1,19 @@
 #pragma once
-// How much a submesh's faces and borders count, summed over its instances (Azim et al. 2015, eq. 5),
-// in closed form: O(groups) a direction instead of O(instances) a face.
+// How much a submesh's faces and borders count, summed over its instances (Azim et al. 2015, eq.
+// 5), in closed form: O(groups) a direction instead of O(instances) a face.
 //
-// For a linear part M with G = M^T M, cofactor matrix C: the quadric of an instanced face pulled back
-// to the submesh is A * w(n) * p p^T with w(n) = det(M)^2 / |C n| = det(G) / sqrt(n^T cof(G) n),
-// and a border constraint through edge e becomes q q^T with q along e x (G^-1 n), q^T G^-1 q = 1,
-// weighted by e^T G e. Both depend on M through G alone.
+// For a linear part M with G = M^T M, cofactor matrix C: the quadric of an instanced face pulled
+// back to the submesh is A * w(n) * p p^T with w(n) = det(M)^2 / |C n| = det(G) / sqrt(n^T cof(G)
+// n), and a border constraint through edge e becomes q q^T with q along e x (G^-1 n), q^T G^-1 q =
+// 1, weighted by e^T G e. Both depend on M through G alone.
 #include "scene/scene.h"
+
 #include <array>
 
 namespace lodestone {
 
 class InstanceWeights {
-  public:
+public:
     // Weights of a single untransformed instance: 1 everywhere.
     InstanceWeights();
     // Sum over these linear parts. Singular ones count 0 on faces.
@@ -34,6 +35,7 @@ class InstanceWeights {
         glm::dvec3 normal{0.0};
         double weight = 0.0;
     };
+
     void border(const glm::dvec3& edge,
                 const glm::dvec3& normal,
                 bool by_length,
@@ -42,12 +44,12 @@ class InstanceWeights {
     // The largest factor by which an instance stretches a length.
     double maxStretch() const { return max_stretch_; }
 
-  private:
+private:
     struct Group {
-        glm::dmat3 gram{1.0};     // G
-        glm::dmat3 cofactor{1.0}; // cof(G)
-        double determinant = 1.0; // det(G)
-        double count = 1.0;       // instances (sum of s^4 for the folded similarities)
+        glm::dmat3 gram{1.0};      // G
+        glm::dmat3 cofactor{1.0};  // cof(G)
+        double determinant = 1.0;  // det(G)
+        double count = 1.0;        // instances (sum of s^4 for the folded similarities)
         double length_count = 1.0; // the same for borders by length (sum of s^3)
     };
 

@@ -1,4 +1,5 @@
 #include "simplify/collapse/component_mesh.h"
+
 #include <algorithm>
 #include <bit>
 
@@ -17,7 +18,7 @@ bool cheaper(const Edge& x, const Edge& y) {
 }
 
 class PassQueue {
-  public:
+public:
     explicit PassQueue(ComponentMesh& mesh) : mesh_(mesh), touched_(mesh.vertexCount(), false) {
         for (std::uint32_t v = 0; v < mesh_.vertexCount(); ++v)
             addAround(v, [&](std::uint32_t other) { return other > v; });
@@ -43,7 +44,7 @@ class PassQueue {
         return collapses;
     }
 
-  private:
+private:
     template <class Accept>
     void addAround(std::uint32_t v, Accept accept) {
         mesh_.forNeighbours(v, [&](std::uint32_t other) {
@@ -63,14 +64,16 @@ class PassQueue {
         std::ranges::nth_element(keys_, nth);
         const auto limit = std::bit_cast<std::uint32_t>(1.5f * std::bit_cast<float>(*nth));
         chosen_.clear();
-        std::ranges::copy_if(
-            edges_, std::back_inserter(chosen_), [&](const Edge& edge) { return edge.key <= limit; });
+        std::ranges::copy_if(edges_, std::back_inserter(chosen_), [&](const Edge& edge) {
+            return edge.key <= limit;
+        });
         std::ranges::sort(chosen_, cheaper);
     }
 
     // Edges with an end that changed are costed anew; all others are still exact.
     void refresh() {
-        std::erase_if(edges_, [&](const Edge& edge) { return touched_[edge.a] || touched_[edge.b]; });
+        std::erase_if(edges_,
+                      [&](const Edge& edge) { return touched_[edge.a] || touched_[edge.b]; });
         for (const std::uint32_t v : moved_)
             addAround(v, [&](std::uint32_t other) { return !touched_[other] || other > v; });
         touched_.assign(touched_.size(), false);

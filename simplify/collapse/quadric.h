@@ -16,13 +16,21 @@ struct Float3 {
     float z = 0.0f;
 };
 
-inline Float3 operator+(Float3 a, Float3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Float3 operator+(Float3 a, Float3 b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
 
-inline Float3 operator-(Float3 a, Float3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Float3 operator-(Float3 a, Float3 b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
 
-inline Float3 operator*(Float3 a, float s) { return {a.x * s, a.y * s, a.z * s}; }
+inline Float3 operator*(Float3 a, float s) {
+    return {a.x * s, a.y * s, a.z * s};
+}
 
-inline float dot(Float3 a, Float3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline float dot(Float3 a, Float3 b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 
 inline Float3 cross(Float3 a, Float3 b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
@@ -71,8 +79,17 @@ inline Quadric translated(const Quadric& q, Float3 shift) {
 
 // Sum of two quadrics about the same origin.
 inline Quadric sum(const Quadric& p, const Quadric& q) {
-    return {p.xx + q.xx, p.yy + q.yy, p.zz + q.zz, p.xy + q.xy, p.xz + q.xz,        p.yz + q.yz,
-            p.bx + q.bx, p.by + q.by, p.bz + q.bz, p.c + q.c,   p.weight + q.weight};
+    return {p.xx + q.xx,
+            p.yy + q.yy,
+            p.zz + q.zz,
+            p.xy + q.xy,
+            p.xz + q.xz,
+            p.yz + q.yz,
+            p.bx + q.bx,
+            p.by + q.by,
+            p.bz + q.bz,
+            p.c + q.c,
+            p.weight + q.weight};
 }
 
 inline float evaluate(const Quadric& q, Float3 x) {

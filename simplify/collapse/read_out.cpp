@@ -1,5 +1,6 @@
 // From a sequence and a step to meshes.
 #include "simplify/collapse/sequence.h"
+
 #include <algorithm>
 #include <cstring>
 #include <numeric>
@@ -112,10 +113,9 @@ void ReadOut::fillPositions(const AliveWedges& alive, const Geometry& from, Geom
     forBlocks(alive.wedges.size(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t version = alive.versions[i];
-            to.positions[i] =
-                scaled(version == kNone
-                           ? from.positions[sequence.complex.wedge_source[alive.wedges[i]]]
-                           : sequence.version_position[version]);
+            to.positions[i] = scaled(
+                version == kNone ? from.positions[sequence.complex.wedge_source[alive.wedges[i]]]
+                                 : sequence.version_position[version]);
         }
     });
 }
@@ -239,7 +239,8 @@ glm::vec3 wedgePosition(const CollapseSequence& sequence,
     if (version != kNone)
         return sequence.version_position[version];
     const auto after = std::ranges::upper_bound(sequence.complex.wedge_begin, wedge);
-    const auto primitive = static_cast<std::size_t>(after - sequence.complex.wedge_begin.begin()) - 1;
+    const auto primitive =
+        static_cast<std::size_t>(after - sequence.complex.wedge_begin.begin()) - 1;
     return submesh.primitives[primitive].geometry->positions[sequence.complex.wedge_source[wedge]];
 }
 

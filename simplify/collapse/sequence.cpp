@@ -1,5 +1,7 @@
 #include "simplify/collapse/sequence.h"
+
 #include "simplify/collapse/radix_sort.h"
+
 #include <algorithm>
 #include <atomic>
 #include <bit>
@@ -226,8 +228,7 @@ CollapseSequence joinLogs(Complex complex,
     sequence.version_position.resize(versions);
     sequence.version_values.resize(versions * sequence.attributes.size);
     sequence.version_carrier.resize(sequence.attributes.carries ? versions : 0);
-    std::vector<std::uint32_t> at(sequence.version_begin.begin(),
-                                  sequence.version_begin.end() - 1);
+    std::vector<std::uint32_t> at(sequence.version_begin.begin(), sequence.version_begin.end() - 1);
     tbb::parallel_for(std::size_t{0}, logs.size(), [&](std::size_t c) {
         joinVersions(sequence, logs[c], step_of.data() + offsets.steps[c], at);
         logs[c] = {};

@@ -1,6 +1,6 @@
 #pragma once
-// The collapses of one submesh in order, readable at any step in both directions: a progressive mesh
-// (Hoppe 1996) stored by lifetimes. Step 0 is the submesh as the file has it.
+// The collapses of one submesh in order, readable at any step in both directions: a progressive
+// mesh (Hoppe 1996) stored by lifetimes. Step 0 is the submesh as the file has it.
 #include "scene/job_context.h"
 #include "scene/result.h"
 #include "simplify/collapse/component_mesh.h"
@@ -9,22 +9,24 @@ namespace lodestone {
 
 struct CollapseSequence {
     // --- steps; index s - 1 for step s
-    std::vector<double> cost;   // quadric error times instance weights, world length^4
-    std::vector<float> error;   // estimated distance in the submesh's units
+    std::vector<double> cost; // quadric error times instance weights, world length^4
+    std::vector<float> error; // estimated distance in the submesh's units
     // Steps allowed by the floors; the rest is recorded but not scheduled.
     std::uint32_t step_count = 0;
 
     // --- faces and wedges alive
-    Complex complex; // faces, wedges and positions at the start
+    Complex complex;                         // faces, wedges and positions at the start
     std::vector<std::uint32_t> face_death;   // [faces] alive at s iff face_death > s
     std::vector<std::uint32_t> wedge_death;  // [wedges] the same
     std::vector<std::uint32_t> wedge_parent; // [wedges] what it became; kNone: no face left
     std::vector<std::uint32_t> kill_order;   // dead wedges, by component, then by rising step
     std::vector<std::uint32_t> kill_begin;   // [components + 1] into kill_order
+
     struct PrimitiveCounts {
         std::vector<std::uint32_t> faces;  // [steps + 1] alive at a step (0: after cleaning)
         std::vector<std::uint32_t> wedges; // [steps + 1]
     };
+
     std::vector<PrimitiveCounts> counts; // [primitives]
 
     // --- where wedges lie; versions of a wedge by rising step
@@ -36,6 +38,7 @@ struct CollapseSequence {
     WedgeAttributes attributes;                 // layout; values are dropped after building
 
     std::uint32_t recordedSteps() const { return static_cast<std::uint32_t>(cost.size()); }
+
     // Triangles at a step; the submesh's own count at step 0.
     std::uint32_t facesAt(std::uint32_t step) const;
 };
@@ -43,9 +46,9 @@ struct CollapseSequence {
 // Floors: a submesh never disappears by collapsing.
 struct FloorOptions {
     bool enabled = true;
-    std::uint32_t min_triangles = 4;   // or all it has, if fewer
-    double min_extent = 0.8;           // of every axis, while it has several instances
-    double min_area = 0.5;             // while it has several instances
+    std::uint32_t min_triangles = 4; // or all it has, if fewer
+    double min_extent = 0.8;         // of every axis, while it has several instances
+    double min_area = 0.5;           // while it has several instances
 };
 
 struct SequenceRequest {
@@ -66,8 +69,9 @@ Result<std::vector<CollapseSequence>> buildSequences(std::span<const SequenceReq
 // Layout and values of a submesh's interpolated attributes.
 WedgeAttributes gatherAttributes(const Submesh& submesh, const Complex& complex);
 
-// Joins the logs of a submesh's components into one sequence, cheapest step first (ties: component).
-// cost_scales [components]: x logged costs; length_scales [components]: x logged distances.
+// Joins the logs of a submesh's components into one sequence, cheapest step first (ties:
+// component). cost_scales [components]: x logged costs; length_scales [components]: x logged
+// distances.
 CollapseSequence joinLogs(Complex complex,
                           WedgeAttributes attributes,
                           std::vector<CollapseLog> logs,

@@ -1,0 +1,227 @@
+#include "simplify/collapse/edge_collapse_source.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <tbb/parallel_for.h>
+
+namespace lodestone {
+
+namespace {
+
+double secondsSince(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+class EdgeCollapseSource final : public LodSource {
+public:
+    EdgeCollapseSource(std::shared_ptr<const SequenceSet> set,
+                       const ScheduleOptions& options,
+                       const ByteModel& bytes)
+        : set_(std::move(set)), options_(options), schedule_(*set_, options, bytes) {}
+
+    const ScenePtr& scene() const override { return set_->scene; }
+
+    std::uint64_t positionCount() const override { return schedule_.positionCount(); }
+
+    std::uint64_t trianglesAt(std::uint64_t position) const override {
+        return schedule_.trianglesAt(position);
+    }
+
+    double errorAt(std::uint64_t position) const override { return schedule_.errorAt(position); }
+
+    LodShape shapeAt(std::uint64_t position) const override;
+    Resolved resolve(const Target& target, const ByteModel& bytes) const override;
+    Lod readOut(std::uint64_t position, const Lod* previous) const override;
+
+    LodSourcePtr rescheduled(const ScheduleOptions& options,
+                             const ByteModel& bytes) const override {
+        const auto start = std::chrono::steady_clock::now();
+        auto other = std::make_shared<EdgeCollapseSource>(set_, options, bytes);
+        other->seconds_sequence = seconds_sequence;
+        other->seconds_schedule = secondsSince(start);
+        return other;
+    }
+
+    std::vector<std::string> notes() const override { return {}; }
+
+private:
+    // The first position that fits, by bisection; positionCount() if none does.
+    template <class Fits>
+    std::uint64_t firstThat(Fits fits) const {
+        std::uint64_t low = 0;
+        std::uint64_t high = positionCount();
+        while (low < high) {
+            const std::uint64_t middle = low + (high - low) / 2;
+            if (fits(middle))
+                high = middle;
+            else
+                low = middle + 1;
+        }
+        return low;
+    }
+
+    std::string whyMissed() const;
+    void fillSubmesh(std::size_t s, SubmeshState state, Lod& lod) const;
+
+    std::shared_ptr<const SequenceSet> set_;
+    ScheduleOptions options_;
+    Schedule schedule_;
+};
+
+LodShape EdgeCollapseSource::shapeAt(std::uint64_t position) const {
+    LodShape shape;
+    shape.submeshes.resize(set_->sequences.size());
+    for (std::size_t s = 0; s < shape.submeshes.size(); ++s) {
+        const CollapseSequence& sequence = set_->sequences[s];
+        const SubmeshState state = schedule_.stateAt(s, position);
+        LodShape::SubmeshShape& to = shape.submeshes[s];
+        to.kept_instances = state.kept_instances;
+        to.instance_order = set_->removals[s].order;
+        const std::vector<Primitive>& primitives = set_->scene->submeshes[s].primitives;
+        const bool grown = state.kept_instances < set_->ranges[s].size();
+        to.changed = state.step > 0 || grown;
+        for (std::size_t p = 0; p < primitives.size(); ++p) {
+            const Geometry& own = *primitives[p].geometry;
+            if (!to.changed || primitives[p].mode != PrimitiveMode::Triangles)
+                to.primitives.push_back({static_cast<std::uint32_t>(own.positions.size()),
+                                         static_cast<std::uint32_t>(own.indices.size())});
+            else
+                to.primitives.push_back({sequence.counts[p].wedges[state.step],
+                                         3 * sequence.counts[p].faces[state.step]});
+        }
+    }
+    return shape;
+}
+
+std::string EdgeCollapseSource::whyMissed() const {
+    const bool locked = std::ranges::find(options_.locked, true) != options_.locked.end();
+    std::string why =
+        "target not reached: every submesh is at its floor (at least 4 triangles, 80 % "
+        "of its extent, one instance)";
+    if (locked)
+        why += " or locked";
+    return why;
+}
+
+Resolved EdgeCollapseSource::resolve(const Target& target, const ByteModel& bytes) const {
+    const auto full = static_cast<double>(trianglesAt(0));
+    const std::uint64_t last = positionCount() - 1;
+    std::uint64_t position = 0;
+    switch (target.kind) {
+    case Target::Kind::Ratio:
+    case Target::Kind::Triangles: {
+        const double limit =
+            target.kind == Target::Kind::Ratio ? target.value * full : target.value;
+        position = firstThat([&](std::uint64_t p) {
+            return static_cast<double>(trianglesAt(p)) <= limit + 1e-9 * full;
+        });
+        break;
+    }
+    case Target::Kind::Bytes:
+        position = firstThat([&](std::uint64_t p) {
+            return static_cast<double>(bytes.bytes(shapeAt(p))) <= target.value;
+        });
+        break;
+    case Target::Kind::Error: // the coarsest whose error is within the target
+        position = firstThat([&](std::uint64_t p) { return errorAt(p) > target.value; });
+        return {position == 0 ? 0 : position - 1, true, {}};
+    }
+    if (position > last)
+        return {last, false, whyMissed()};
+    return {position, true, {}};
+}
+
+void EdgeCollapseSource::fillSubmesh(std::size_t s, SubmeshState state, Lod& lod) const {
+    const Submesh& submesh = set_->scene->submeshes[s];
+    const RemovalSequence& removal = set_->removals[s];
+    LodSubmesh& to = lod.submeshes[s];
+    to.kept_instances = state.kept_instances;
+    to.instance_order = removal.order;
+    const double growth = removal.possible() ? growthAt(removal, state.kept_instances) : 1.0;
+    if (state.step == 0 && growth == 1.0) {
+        for (const Primitive& primitive : submesh.primitives)
+            to.primitives.push_back(primitive.geometry);
+        return;
+    }
+    to.primitives = readOutSubmesh(set_->sequences[s], submesh, state.step, growth, removal.pivot);
+}
+
+Lod EdgeCollapseSource::readOut(std::uint64_t position, const Lod* previous) const {
+    Lod lod;
+    lod.position = position;
+    lod.submeshes.resize(set_->sequences.size());
+    tbb::parallel_for(std::size_t{0}, lod.submeshes.size(), [&](std::size_t s) {
+        const SubmeshState state = schedule_.stateAt(s, position);
+        // The same state means the same geometry: nothing to build, nothing to upload.
+        if (previous && schedule_.stateAt(s, previous->position) == state)
+            lod.submeshes[s] = previous->submeshes[s];
+        else
+            fillSubmesh(s, state, lod);
+    });
+    for (std::size_t s = 0; s < lod.submeshes.size(); ++s) {
+        const SubmeshState state = schedule_.stateAt(s, position);
+        const std::uint64_t faces = set_->sequences[s].facesAt(state.step);
+        lod.unique_triangles += faces;
+        lod.triangles += faces * state.kept_instances;
+        lod.instances += state.kept_instances;
+    }
+    return lod;
+}
+
+std::vector<SequenceRequest> requestsFor(const SequenceSet& set,
+                                         const EdgeCollapseOptions& options) {
+    const Scene& scene = *set.scene;
+    std::vector<SequenceRequest> requests(scene.submeshes.size());
+    tbb::parallel_for(std::size_t{0}, requests.size(), [&](std::size_t s) {
+        requests[s].submesh = &scene.submeshes[s];
+        requests[s].instance_count = set.ranges[s].size();
+        if (!options.weigh_instances)
+            return;
+        std::vector<glm::dmat3> linear_parts;
+        for (std::uint32_t i = set.ranges[s].begin; i < set.ranges[s].end; ++i)
+            linear_parts.emplace_back(scene.instances[i].transform);
+        requests[s].weights = InstanceWeights(linear_parts);
+    });
+    return requests;
+}
+
+} // namespace
+
+Result<LodSourcePtr> prepareEdgeCollapse(ScenePtr scene,
+                                         const EdgeCollapseOptions& options,
+                                         const ScheduleOptions& schedule,
+                                         const JobContext& job) {
+    const auto start = std::chrono::steady_clock::now();
+    auto set = std::make_shared<SequenceSet>();
+    set->scene = std::move(scene);
+    set->ranges = instanceRanges(*set->scene);
+    const Bounds bounds = robustWorldBounds(*set->scene);
+    set->diagonal = bounds.diagonal() > 0.0 ? bounds.diagonal() : 1.0;
+    const std::vector<SequenceRequest> requests = requestsFor(*set, options);
+    for (const SequenceRequest& request : requests)
+        set->max_stretch.push_back(request.weights.maxStretch());
+    Result<std::vector<CollapseSequence>> sequences =
+        buildSequences(requests, options.collapse, options.floors, job);
+    if (!sequences)
+        return tl::unexpected(sequences.error());
+    set->sequences = std::move(*sequences);
+    set->removals.resize(requests.size());
+    if (options.remove_instances)
+        tbb::parallel_for(std::size_t{0}, requests.size(), [&](std::size_t s) {
+            if (set->ranges[s].size() > 1 && !job.stopRequested())
+                set->removals[s] =
+                    planRemoval(*set->scene, static_cast<std::uint32_t>(s), set->ranges[s], bounds);
+        });
+    if (job.stopRequested())
+        return cancelled();
+    const double sequence_seconds = secondsSince(start);
+    const auto schedule_start = std::chrono::steady_clock::now();
+    const ByteModel bytes(set->scene, ExportOptions{});
+    auto source = std::make_shared<EdgeCollapseSource>(set, schedule, bytes);
+    source->seconds_sequence = sequence_seconds;
+    source->seconds_schedule = secondsSince(schedule_start);
+    return source;
+}
+
+} // namespace lodestone

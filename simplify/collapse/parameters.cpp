@@ -1,0 +1,68 @@
+#include "simplify/collapse/parameters.h"
+
+namespace lodestone {
+
+std::vector<ParameterInfo> collapseParameters() {
+    std::vector<ParameterInfo> parameters(3);
+    ParameterInfo& boundary = parameters[0];
+    boundary.id = "boundary";
+    boundary.label = "Boundary weight";
+    boundary.unit = "x e\xc2\xb2";
+    boundary.tooltip = "How firmly open borders stay in place: factor on the squared edge length.";
+    boundary.maximum = 100.0;
+    boundary.fallback = 1.0;
+    ParameterInfo& rule = parameters[1];
+    rule.id = "boundary-rule";
+    rule.label = "Boundary rule";
+    rule.tooltip =
+        "Borders weighted by squared edge length (independent of the scene's scale) or, as "
+        "the paper has it, by edge length.";
+    rule.kind = ParameterInfo::Kind::Choice;
+    rule.choices = {"squared-length", "length"};
+    ParameterInfo& flip = parameters[2];
+    flip.id = "flip-angle";
+    flip.label = "Flip limit";
+    flip.unit = "\xc2\xb0";
+    flip.tooltip = "Collapses that turn a face by more than this are rejected.";
+    flip.minimum = 10.0;
+    flip.maximum = 180.0;
+    flip.fallback = 80.0;
+    return parameters;
+}
+
+ParameterInfo removalParameter() {
+    ParameterInfo removal;
+    removal.id = "remove-instances";
+    removal.label = "Remove instances";
+    removal.tooltip =
+        "Below a submesh's floor, thin out its instances and grow the rest so that the "
+        "area stays.";
+    removal.kind = ParameterInfo::Kind::Toggle;
+    removal.fallback = 1.0;
+    return removal;
+}
+
+Result<EdgeCollapseOptions> readCollapseParameters(const Algorithm& algorithm,
+                                                   const ParameterValues& values) {
+    for (const auto& [id, value] : values) {
+        const auto known = [&](const ParameterInfo& info) { return info.id == id; };
+        const auto found = std::ranges::find_if(algorithm.parameters, known);
+        if (found == algorithm.parameters.end())
+            return fail(ErrorKind::Usage,
+                        std::string(algorithm.id) + ": unknown parameter '" + id + "'");
+        const double maximum = found->kind == ParameterInfo::Kind::Choice
+                                   ? static_cast<double>(found->choices.size() - 1)
+                                   : found->maximum;
+        if (!(value >= found->minimum && value <= maximum))
+            return fail(ErrorKind::Usage,
+                        std::string(algorithm.id) + ": parameter '" + id + "' is out of range");
+    }
+    EdgeCollapseOptions options;
+    options.collapse.boundary_weight = parameterValue(algorithm, values, "boundary");
+    options.collapse.boundary_by_length = parameterValue(algorithm, values, "boundary-rule") > 0.5;
+    options.collapse.flip_angle_deg = parameterValue(algorithm, values, "flip-angle");
+    options.remove_instances = parameterValue(algorithm, values, "remove-instances") > 0.5;
+    return options;
+}
+
+} // namespace lodestone

@@ -1,0 +1,294 @@
+#include "simplify/collapse/removal.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <unordered_map>
+
+namespace lodestone {
+
+namespace {
+
+// What the plan needs to know of a submesh.
+struct SubmeshFacts {
+    Bounds bounds;
+    glm::dvec3 pivot{0.0};
+    double area = 0.0;
+    glm::dmat3 normal_moment{0.0}; // area-weighted mean of n n^T
+};
+
+SubmeshFacts factsOf(const Submesh& submesh) {
+    SubmeshFacts facts;
+    facts.bounds = localBounds(submesh);
+    glm::dvec3 centroid(0.0);
+    for (const Primitive& primitive : submesh.primitives) {
+        if (primitive.mode != PrimitiveMode::Triangles)
+            continue;
+        const Geometry& geometry = *primitive.geometry;
+        for (std::size_t t = 0; t < geometry.triangleCount(); ++t) {
+            std::array<glm::dvec3, 3> corner;
+            for (std::size_t k = 0; k < 3; ++k)
+                corner[k] = glm::dvec3(geometry.positions[geometry.indices[3 * t + k]]);
+            const glm::dvec3 cross = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
+            const double length = glm::length(cross);
+            if (!(length > 0.0))
+                continue;
+            facts.area += 0.5 * length;
+            facts.normal_moment += glm::outerProduct(cross, cross) * (0.5 / length);
+            centroid += (corner[0] + corner[1] + corner[2]) * (length / 6.0);
+        }
+    }
+    if (facts.area > 0.0) {
+        facts.normal_moment /= facts.area;
+        centroid /= facts.area;
+    }
+    // The submesh's own origin if it lies in or near its box (a leaf's stalk), else its centroid.
+    const glm::dvec3 margin(0.1 * facts.bounds.diagonal());
+    const bool near = glm::all(glm::lessThanEqual(facts.bounds.min - margin, glm::dvec3(0.0))) &&
+                      glm::all(glm::greaterThanEqual(facts.bounds.max + margin, glm::dvec3(0.0)));
+    facts.pivot = near ? glm::dvec3(0.0) : centroid;
+    return facts;
+}
+
+// World area of an instance: sqrt of the mean of |C n|^2, exact for similarities.
+double instanceArea(const SubmeshFacts& facts, const glm::dmat3& m) {
+    const glm::dmat3 cofactor(
+        glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+    const glm::dmat3 gram = glm::transpose(cofactor) * cofactor;
+    const glm::dmat3 product = gram * facts.normal_moment;
+    return facts.area * std::sqrt(std::max(0.0, product[0][0] + product[1][1] + product[2][2]));
+}
+
+std::uint64_t spread(std::uint64_t v) { // 21 bits to every third bit
+    v &= 0x1FFFFF;
+    v = (v | v << 32) & 0x1F00000000FFFF;
+    v = (v | v << 16) & 0x1F0000FF0000FF;
+    v = (v | v << 8) & 0x100F00F00F00F00F;
+    v = (v | v << 4) & 0x10C30C30C30C30C3;
+    return (v | v << 2) & 0x1249249249249249;
+}
+
+std::uint64_t mortonOf(const glm::dvec3& p, const Bounds& bounds) {
+    std::uint64_t code = 0;
+    const double size = std::max({bounds.size().x, bounds.size().y, bounds.size().z, 1e-300});
+    for (int axis = 0; axis < 3; ++axis) {
+        const double unit = std::clamp((p[axis] - bounds.min[axis]) / size, 0.0, 1.0);
+        code |= spread(static_cast<std::uint64_t>(unit * 0x1FFFFF)) << axis;
+    }
+    return code;
+}
+
+struct Member {
+    std::uint32_t instance = 0;
+    glm::dvec3 at{0.0}; // pivot in the world
+    double reach = 0.0; // farthest a corner of its box is from `at`
+    double room = 0.0;  // growth up to which its box surely stays inside the model's
+    double area = 0.0;
+    std::uint64_t code = 0;
+};
+
+std::vector<Member> membersOf(const Scene& scene,
+                              InstanceRange range,
+                              const SubmeshFacts& facts,
+                              const Bounds& scene_bounds) {
+    std::vector<Member> members(range.size());
+    Bounds spots;
+    for (std::uint32_t i = 0; i < range.size(); ++i) {
+        Member& member = members[i];
+        member.instance = range.begin + i;
+        const glm::dmat4& transform = scene.instances[member.instance].transform;
+        member.at = glm::dvec3(transform * glm::dvec4(facts.pivot, 1.0));
+        member.area = instanceArea(facts, glm::dmat3(transform));
+        member.room = std::numeric_limits<double>::infinity();
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::dvec3 local((corner & 1) ? facts.bounds.max.x : facts.bounds.min.x,
+                                   (corner & 2) ? facts.bounds.max.y : facts.bounds.min.y,
+                                   (corner & 4) ? facts.bounds.max.z : facts.bounds.min.z);
+            const glm::dvec3 arm = glm::dvec3(transform * glm::dvec4(local, 1.0)) - member.at;
+            for (int axis = 0; axis < 3; ++axis) {
+                const double wall = arm[axis] > 0.0 ? scene_bounds.max[axis] - member.at[axis]
+                                                    : member.at[axis] - scene_bounds.min[axis];
+                if (std::abs(arm[axis]) > 0.0)
+                    member.room = std::min(member.room, wall / std::abs(arm[axis]));
+            }
+        }
+        spots.add(member.at);
+    }
+    for (Member& member : members)
+        member.code = mortonOf(member.at, spots);
+    std::ranges::sort(members, [](const Member& a, const Member& b) {
+        return a.code != b.code ? a.code < b.code : a.instance < b.instance;
+    });
+    return members;
+}
+
+std::size_t reversedBits(std::size_t value, int bits) {
+    std::size_t reversed = 0;
+    for (int b = 0; b < bits; ++b)
+        reversed |= (value >> b & 1) << (bits - 1 - b);
+    return reversed;
+}
+
+// Indices into members, the first to go first. Rounds halve the survivors: neighbours along the
+// Morton curve are a stratum of two, of which one goes; the strata of a round go in bit-reversed
+// order, so that every moment of the slider is evenly thinned.
+std::vector<std::uint32_t> removalOrder(const std::vector<Member>& members) {
+    std::vector<std::uint32_t> alive(members.size());
+    std::iota(alive.begin(), alive.end(), 0u);
+    std::vector<std::uint32_t> order;
+    double growth = 1.0;
+    for (int round = 0; alive.size() > 1; ++round) {
+        growth = std::min(kMaxGrowth, growth * std::sqrt(2.0));
+        const std::size_t pairs = alive.size() / 2;
+        const int bits = static_cast<int>(std::bit_width(pairs - 1));
+        std::vector<std::uint32_t> survivors(alive.begin() + static_cast<std::ptrdiff_t>(2 * pairs),
+                                             alive.end());
+        std::vector<std::uint32_t> stay(pairs);
+        for (std::size_t slot = 0; slot < std::size_t{1} << bits; ++slot) {
+            const std::size_t pair = reversedBits(slot, bits);
+            if (pair >= pairs)
+                continue;
+            const std::uint32_t a = alive[2 * pair];
+            const std::uint32_t b = alive[2 * pair + 1];
+            const bool a_fits = members[a].room >= growth;
+            const bool b_fits = members[b].room >= growth;
+            const bool keep_a =
+                a_fits != b_fits ? a_fits : ((pair + static_cast<std::size_t>(round)) & 1) == 0;
+            stay[pair] = keep_a ? a : b;
+            order.push_back(keep_a ? b : a);
+        }
+        survivors.insert(survivors.begin(), stay.begin(), stay.end());
+        alive = std::move(survivors);
+    }
+    order.insert(order.end(), alive.begin(), alive.end());
+    return order;
+}
+
+// Distance of each newcomer to the nearest point already there; the grid is rebuilt finer whenever
+// the number of points has doubled, so that a cell holds about one.
+class GrowingGrid {
+public:
+    double nearest(const glm::dvec3& p) const {
+        double best = std::numeric_limits<double>::infinity();
+        if (points_.size() <= 8) {
+            for (const glm::dvec3& other : points_)
+                best = std::min(best, glm::length(other - p));
+            return best;
+        }
+        const glm::ivec3 center = cellOf(p);
+        for (int ring = 0; ring <= kRings; ++ring) {
+            forShell(center, ring, [&](std::uint32_t id) {
+                best = std::min(best, glm::length(points_[id] - p));
+            });
+            if (best <= static_cast<double>(ring) * cell_)
+                return best;
+        }
+        for (const glm::dvec3& other : points_) // far from all others: rare
+            best = std::min(best, glm::length(other - p));
+        return best;
+    }
+
+    void add(const glm::dvec3& p) {
+        bounds_.add(p);
+        points_.push_back(p);
+        if (points_.size() >= 2 * built_for_)
+            rebuild();
+        else
+            insert(static_cast<std::uint32_t>(points_.size() - 1));
+    }
+
+private:
+    static constexpr int kRings = 6;
+
+    glm::ivec3 cellOf(const glm::dvec3& p) const {
+        const glm::dvec3 scaled =
+            glm::clamp((p - origin_) / cell_, glm::dvec3(-1e6), glm::dvec3(1e6));
+        return glm::ivec3(glm::floor(scaled));
+    }
+
+    static std::uint64_t keyOf(const glm::ivec3& cell) {
+        const auto part = [](int v) { return static_cast<std::uint64_t>(v + 0x100000) & 0x1FFFFF; };
+        return part(cell.x) << 42 | part(cell.y) << 21 | part(cell.z);
+    }
+
+    template <class Visit>
+    void forShell(const glm::ivec3& center, int ring, Visit visit) const {
+        for (int x = -ring; x <= ring; ++x)
+            for (int y = -ring; y <= ring; ++y)
+                for (int z = -ring; z <= ring; ++z) {
+                    if (std::max({std::abs(x), std::abs(y), std::abs(z)}) != ring)
+                        continue;
+                    const auto found = cells_.find(keyOf(center + glm::ivec3(x, y, z)));
+                    if (found != cells_.end())
+                        for (const std::uint32_t id : found->second)
+                            visit(id);
+                }
+    }
+
+    void insert(std::uint32_t id) { cells_[keyOf(cellOf(points_[id]))].push_back(id); }
+
+    void rebuild() {
+        built_for_ = points_.size();
+        origin_ = bounds_.min;
+        const glm::dvec3 size = glm::max(bounds_.size(), glm::dvec3(1e-9 * bounds_.diagonal()));
+        cell_ = std::cbrt(size.x * size.y * size.z / static_cast<double>(points_.size()));
+        cell_ = std::max({cell_, bounds_.diagonal() * 1e-5, 1e-300});
+        cells_.clear();
+        for (std::uint32_t id = 0; id < points_.size(); ++id)
+            insert(id);
+    }
+
+    Bounds bounds_;
+    glm::dvec3 origin_{0.0};
+    double cell_ = 1.0;
+    std::size_t built_for_ = 1;
+    std::vector<glm::dvec3> points_;
+    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+};
+
+} // namespace
+
+double growthAt(const RemovalSequence& removal, std::uint32_t kept) {
+    const double all = removal.area_left.back();
+    const double left = removal.area_left[kept];
+    if (!(left > 0.0) || kept + 1 >= removal.area_left.size())
+        return 1.0;
+    return std::min(kMaxGrowth, std::sqrt(all / left));
+}
+
+RemovalSequence planRemoval(const Scene& scene,
+                            std::uint32_t submesh,
+                            InstanceRange range,
+                            const Bounds& scene_bounds) {
+    const SubmeshFacts facts = factsOf(scene.submeshes[submesh]);
+    const std::vector<Member> members = membersOf(scene, range, facts, scene_bounds);
+    std::vector<std::uint32_t> order = removalOrder(members);
+    std::ranges::reverse(order); // the longest-lived first
+    RemovalSequence removal;
+    removal.pivot = facts.pivot;
+    removal.area_left.push_back(0.0);
+    auto instances = std::make_shared<std::vector<std::uint32_t>>();
+    std::vector<double> distance;
+    GrowingGrid grid;
+    for (const std::uint32_t index : order) {
+        const Member& member = members[index];
+        instances->push_back(member.instance);
+        removal.area_left.push_back(removal.area_left.back() + member.area);
+        distance.push_back(grid.nearest(member.at));
+        grid.add(member.at);
+    }
+    double running = 0.0;
+    double running_distance = 0.0;
+    for (std::size_t i = order.size(); i-- > 1;) { // from the first to go
+        running_distance = std::max(running_distance, distance[i]);
+        running = std::max(running, members[order[i]].area * running_distance * running_distance);
+        removal.cost.push_back(running);
+        removal.error.push_back(static_cast<float>(running_distance));
+    }
+    removal.order = std::move(instances);
+    return removal;
+}
+
+} // namespace lodestone

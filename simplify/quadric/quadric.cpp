@@ -1,0 +1,66 @@
+#include "simplify/quadric/quadric.h"
+
+#include "scene/expand.h"
+#include "simplify/collapse/parameters.h"
+
+namespace lodestone {
+
+namespace {
+
+Result<LodSourcePtr> prepareQuadric(const ScenePtr& scene,
+                                    const ParameterValues& values,
+                                    const ScheduleOptions& schedule,
+                                    const JobContext& job) {
+    Result<EdgeCollapseOptions> options = readCollapseParameters(quadricAlgorithm(), values);
+    if (!options)
+        return tl::unexpected(options.error());
+    Result<ScenePtr> expanded = expandScene(*scene, job);
+    if (!expanded)
+        return tl::unexpected(expanded.error());
+    options->remove_instances = false;
+    // Importance and locks speak of the input's submeshes, which are no longer there.
+    return prepareEdgeCollapse(*expanded, *options, {schedule.ordering, {}, {}}, job);
+}
+
+Result<LodSourcePtr> prepareSubmesh(const ScenePtr& scene,
+                                    const ParameterValues& values,
+                                    const ScheduleOptions& schedule,
+                                    const JobContext& job) {
+    Result<EdgeCollapseOptions> options = readCollapseParameters(quadricSubmeshAlgorithm(), values);
+    if (!options)
+        return tl::unexpected(options.error());
+    options->weigh_instances = false;
+    return prepareEdgeCollapse(scene, *options, schedule, job);
+}
+
+} // namespace
+
+Algorithm quadricAlgorithm() {
+    Algorithm row;
+    row.id = "quadric";
+    row.name = "Quadric (expanded)";
+    row.short_name = "Quadric";
+    row.paper = "Garland and Heckbert 1997";
+    row.summary = "Collapses the edges of the de-instanced scene, as instancing-blind tools do.";
+    row.expands = true;
+    row.parameters = collapseParameters();
+    row.prepare = prepareQuadric;
+    return row;
+}
+
+Algorithm quadricSubmeshAlgorithm() {
+    Algorithm row;
+    row.id = "quadric-submesh";
+    row.name = "Quadric per submesh";
+    row.short_name = "Quadric/submesh";
+    row.paper = "Garland and Heckbert 1997";
+    row.summary =
+        "Collapses each submesh as if it stood alone; ignores how often and how large its "
+        "instances are.";
+    row.parameters = collapseParameters();
+    row.parameters.push_back(removalParameter());
+    row.prepare = prepareSubmesh;
+    return row;
+}
+
+} // namespace lodestone
