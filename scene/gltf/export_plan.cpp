@@ -2,9 +2,11 @@
 
 #include "scene/gltf/writer_instances.h"
 #include "scene/gltf/writer_meshes.h"
+#include "scene/gltf/writer_nodes.h"
 #include "scene/gltf/writer_references.h"
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 namespace lodestone {
@@ -98,7 +100,9 @@ ExportPlan::ExportPlan(const Scene& from, const ExportOptions& with)
     const std::set<std::uint32_t> wanted = rewriteReferences(document, carried);
     planImages(*this, document);
     planMeshes(*this, document);
-    planInstances(*this, document, wanted);
+    planNodes(*this, document, wanted);
+    planScenes(*this, document, planInstances(*this, document));
+    estimateInstances(*this);
     extensions_used = extensionList(document, "extensionsUsed");
     extensions_required = extensionList(document, "extensionsRequired");
     std::erase(extensions_used, kGpuInstancing);

@@ -1,15 +1,15 @@
 #pragma once
-// Plans nodes, scenes and the ways instances can be stored.
+// Plans the ways instances can be stored.
 #include "scene/gltf/export_plan.h"
-
-#include <set>
 
 namespace lodestone {
 
-// Fills nodes, scenes, groups, instances and what SubmeshPlan knows of them.
-// document: the source's, references already rewritten. wanted: nodes that something refers to.
-void planInstances(ExportPlan& plan,
-                   nlohmann::json& document,
-                   const std::set<std::uint32_t>& wanted);
+// Fills groups and instances; adds nodes for what is not a node in the file. planNodes() has run.
+// document: the source's, references already rewritten.
+// Returns the added nodes that belong to the drawn scene's roots.
+std::vector<std::uint32_t> planInstances(ExportPlan& plan, nlohmann::json& document);
+
+// Fills in what SubmeshPlan knows of sizes. Everything else is planned.
+void estimateInstances(ExportPlan& plan);
 
 } // namespace lodestone
