@@ -1,8 +1,14 @@
 // The only file that knows every room: gives the command line its pixels and opens the window.
 #include "app/cli.h"
 #include "render/view.h"
+#ifdef LODESTONE_WITH_WINDOW
+#include "app/session.h"
+#include "render/view_set.h"
+#include "ui/host.h"
+#include "ui/window.h"
+#endif
 
-#include <atomic>
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -208,10 +214,208 @@ std::string optionalParts() {
 #endif
 }
 
+#ifdef LODESTONE_WITH_WINDOW
+
+OrbitCamera orbitCamera(const CameraState& state, const Bounds& bounds) {
+    OrbitCamera camera;
+    camera.target = state.target;
+    camera.distance = state.distance;
+    camera.azimuth_rad = state.azimuth_deg * kRadiansPerDegree;
+    camera.elevation_rad = state.elevation_deg * kRadiansPerDegree;
+    camera.yfov_rad = kVerticalFovRad;
+    if (!bounds.empty) {
+        camera.scene_center = bounds.center();
+        camera.scene_radius = bounds.diagonal() * 0.5;
+    }
+    return camera;
+}
+
+ViewOptions viewOptions(const DisplayOptions& display) {
+    ViewOptions options;
+    options.shading = shadingFor(display.shading);
+    options.wireframe = display.wireframe;
+    options.background = Background::Solid;
+    options.light_azimuth_rad = static_cast<float>(-display.light_azimuth_deg * kRadiansPerDegree);
+    options.light_elevation_rad =
+        static_cast<float>(display.light_elevation_deg * kRadiansPerDegree);
+    return options;
+}
+
+// The window's loop: events, commands, session, pictures, interface. Sleeps while nothing changes.
+class WindowLoop {
+public:
+    WindowLoop(GlContext& context,
+               const Renderer& renderer,
+               Session& session,
+               const WindowRequest& request)
+        : context_(context), session_(session), pictures_(renderer), host_(context.nativeWindow()),
+          window_(session, host_.theme(), {.welcome = !request.file}) {
+        facts_.renderer = shortRendererName(context.info().renderer);
+        if (request.file)
+            commands_.push(OpenScene{*request.file});
+        else
+            commands_.push(OpenSample{"maple", 1});
+    }
+
+    void run(const std::stop_token& stop, std::ostream& err) {
+        while (!window_.wantsToQuit() && !stop.stop_requested()) {
+            if (host_.waitEvents(waitTime()))
+                settle_ = kSettlePasses;
+            window_.drop(host_.takeDroppedFiles(), commands_);
+            if (host_.takeCloseRequest())
+                window_.askToQuit();
+            if (session_.update(commands_))
+                settle_ = kSettlePasses;
+            const bool due = std::chrono::steady_clock::now() >= wake_at_;
+            if (!host_.minimised() && (settle_ > 0 || stale_ || due))
+                drawFrame(err);
+        }
+    }
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    static constexpr int kSettlePasses = 3; // frames until hovering and layout have settled
+    static constexpr double kPictureBudget_ms = 25.0;
+    static constexpr double kLongestWait_s = 0.5; // finished jobs are noticed within it
+
+    // "llvmpipe" of "llvmpipe (LLVM 15.0.6, 256 bits)".
+    static std::string shortRendererName(const std::string& renderer) {
+        return renderer.substr(0, renderer.find(" ("));
+    }
+
+    double waitTime() const {
+        if (settle_ > 0 || stale_)
+            return 0.0;
+        const std::chrono::duration<double> left = wake_at_ - Clock::now();
+        const double longest = session_.document().jobs.empty() ? kLongestWait_s : 1.0 / 30.0;
+        return std::clamp(left.count(), 0.001, longest);
+    }
+
+    void drawFrame(std::ostream& err) {
+        settle_ = std::max(0, settle_ - 1);
+        facts_.width_px = host_.widthPx();
+        facts_.height_px = host_.heightPx();
+        facts_.density = host_.density();
+        host_.beginPass();
+        window_.draw(facts_, shown_, commands_);
+        bool again = session_.update(commands_);
+        const Document& document = session_.document();
+        if (document.scene && document.camera.distance <= 0.0) {
+            commands_.push(FrameScene{});
+            again = session_.update(commands_) || again;
+        }
+        again = drawPictures(err) || again;
+        if (again) { // numbers and pictures of this frame, not of the last one
+            host_.discardPass();
+            host_.beginPass();
+            window_.draw(facts_, shown_, commands_);
+        }
+        clearWindow(
+            {facts_.width_px, facts_.height_px, 0x14 / 255.0f, 0x17 / 255.0f, 0x1b / 255.0f});
+        host_.endFrame();
+        context_.swapBuffers();
+        finishFrame();
+    }
+
+    void finishFrame() {
+        session_.uiLog().frame(++facts_.frame);
+        if (!commands_.empty())
+            settle_ = std::max(settle_, 2);
+        const double wake_s = std::min(window_.wakeIn(), 3600.0);
+        wake_at_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                      std::chrono::duration<double>(wake_s));
+        if (window_.takeFullScreenToggle())
+            host_.toggleFullScreen();
+        const Document& document = session_.document();
+        host_.setTitle(document.scene ? document.scene->name + " \u2013 Lodestone" : "Lodestone");
+    }
+
+    // Returns whether any picture is another than before.
+    bool drawPictures(std::ostream& err) {
+        const Document& document = session_.document();
+        std::vector<ViewSet::Wanted> wanted;
+        for (const ui::ViewRequest& view : window_.views()) {
+            const Lane* const lane = document.findLane(view.lane);
+            if (lane)
+                wanted.push_back({view.lane,
+                                  lane->status.scene,
+                                  lane->status.lod,
+                                  {view.width_px, view.height_px}});
+        }
+        const auto drawn = pictures_.draw(wanted,
+                                          orbitCamera(document.camera, document.bounds),
+                                          viewOptions(document.view),
+                                          kPictureBudget_ms);
+        if (!drawn) {
+            if (drawn.error().message != last_error_)
+                err << "lodestone: " << drawn.error().message << '\n';
+            last_error_ = drawn.error().message;
+            return false;
+        }
+        return takePictures(*drawn);
+    }
+
+    bool takePictures(const std::vector<ViewSet::Picture>& drawn) {
+        bool changed = drawn.size() != shown_.size();
+        shown_.clear();
+        stale_ = false;
+        for (const ViewSet::Picture& picture : drawn) {
+            changed = changed || picture.drew;
+            stale_ = stale_ || picture.stale;
+            if (picture.drew && picture.cost_ms > 0.0)
+                session_.setFrameTime(picture.key, picture.cost_ms);
+            shown_.push_back(
+                {picture.key,
+                 reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(picture.texture)),
+                 picture.stale});
+        }
+        return changed;
+    }
+
+    GlContext& context_;
+    Session& session_;
+    ViewSet pictures_;
+    ui::Host host_;
+    ui::Window window_;
+    ui::WindowFacts facts_;
+    CommandQueue commands_;
+    std::vector<ui::LanePicture> shown_;
+    std::string last_error_;
+    Clock::time_point wake_at_ = Clock::now();
+    int settle_ = kSettlePasses;
+    bool stale_ = false;
+};
+
 int openWindow(const WindowRequest& request, const CliEnvironment& environment) {
-    environment.err << "lodestone: no display; writing the comparison instead\n";
+    const auto context = createWindowContext({});
+    if (!context) {
+        environment.err << "lodestone: " << context.error().message
+                        << "; writing the comparison instead\n";
+        return compareWithoutDisplay(request, environment);
+    }
+    const auto renderer = Renderer::create(**context);
+    if (!renderer) {
+        environment.err << "lodestone: " << renderer.error().message << '\n';
+        return exitCode(renderer.error().kind);
+    }
+    Session::Options options;
+    options.recent_file = defaultRecentFile();
+    options.log_file = uiLogFileFromEnvironment();
+    Session session(options);
+    WindowLoop loop(**context, *renderer, session, request);
+    loop.run(environment.stop, environment.err);
+    return 0;
+}
+
+#else
+
+int openWindow(const WindowRequest& request, const CliEnvironment& environment) {
+    environment.err << "lodestone: built without a window; writing the comparison instead\n";
     return compareWithoutDisplay(request, environment);
 }
+
+#endif
 
 int runProgram(int argc, char** argv) {
     const SignalWatcher signals;

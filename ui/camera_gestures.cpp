@@ -1,0 +1,71 @@
+#include "ui/camera_gestures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <imgui.h>
+#include <numbers>
+
+namespace lodestone::ui {
+
+namespace {
+
+constexpr double kDegreesPerUnit = 0.4; // of mouse travel
+constexpr double kZoomPerNotch = 0.88;
+constexpr double kSteepest_deg = 89.9;
+
+double radians(double degrees) {
+    return degrees * std::numbers::pi / 180.0;
+}
+
+CameraState panned(CameraState camera, double right_units, double up_units, double unit_size) {
+    const double azimuth = radians(camera.azimuth_deg);
+    const double elevation = radians(camera.elevation_deg);
+    const glm::dvec3 right{std::cos(azimuth), 0.0, -std::sin(azimuth)};
+    const glm::dvec3 up{-std::sin(azimuth) * std::sin(elevation),
+                        std::cos(elevation),
+                        -std::cos(azimuth) * std::sin(elevation)};
+    camera.target += (right * right_units + up * up_units) * unit_size;
+    return camera;
+}
+
+CameraState orbited(CameraState camera, double right_units, double down_units) {
+    camera.azimuth_deg = std::remainder(camera.azimuth_deg - right_units * kDegreesPerUnit, 360.0);
+    camera.elevation_deg = std::clamp(
+        camera.elevation_deg + down_units * kDegreesPerUnit, -kSteepest_deg, kSteepest_deg);
+    return camera;
+}
+
+} // namespace
+
+CameraState zoomed(CameraState camera, double factor) {
+    camera.distance *= factor;
+    return camera;
+}
+
+CameraState lookFrom(CameraState camera, AxisSide side) {
+    camera.azimuth_deg = side == AxisSide::Right ? 90.0 : 0.0;
+    camera.elevation_deg = side == AxisSide::Top ? kSteepest_deg : 0.0;
+    return camera;
+}
+
+std::optional<CameraState>
+cameraGesture(const CameraState& camera, float view_height, double yfov_rad) {
+    const ImGuiIO& io = ImGui::GetIO();
+    CameraState moved = camera;
+    if (ImGui::IsItemActive()) {
+        const bool middle = ImGui::IsMouseDown(ImGuiMouseButton_Middle);
+        const bool pans = ImGui::IsMouseDown(ImGuiMouseButton_Right) || (middle && io.KeyShift);
+        const double unit_size = 2.0 * camera.distance * std::tan(yfov_rad * 0.5) /
+                                 static_cast<double>(std::max(1.0f, view_height));
+        const auto right = static_cast<double>(io.MouseDelta.x);
+        const auto down = static_cast<double>(io.MouseDelta.y);
+        moved = pans ? panned(moved, -right, down, unit_size) : orbited(moved, right, down);
+    }
+    if (ImGui::IsItemHovered() && io.MouseWheel != 0.0f)
+        moved = zoomed(moved, std::pow(kZoomPerNotch, static_cast<double>(io.MouseWheel)));
+    if (moved == camera)
+        return std::nullopt;
+    return moved;
+}
+
+} // namespace lodestone::ui

@@ -1,0 +1,170 @@
+#include "ui/format.h"
+#include "ui/lane_text.h"
+#include "ui/panels.h"
+#include "ui/target_slider.h"
+#include "ui/widgets.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace lodestone::ui {
+
+namespace {
+
+constexpr float kTitleHeight = 26.0f;
+constexpr float kRowHeight = 29.0f;
+
+struct Column {
+    std::string_view title;
+    double right; // of the table's width, 0..1
+};
+
+// The lane's name and slider stand left of these.
+constexpr std::array<Column, 8> kColumns = {{
+    {"Triangles", 0.395},
+    {"Ratio", 0.480},
+    {"Projected size", 0.625},
+    {"FPS", 0.690},
+    {"ms", 0.750},
+    {"Hausdorff %", 0.845},
+    {"Mean %", 0.915},
+    {"Built in", 0.990},
+}};
+constexpr double kSliderBegin = 0.150;
+constexpr double kSliderEnd = 0.275;
+
+std::array<std::string, kColumns.size()> cellsOf(const Lane& lane) {
+    const LaneStatus& status = lane.status;
+    std::array<std::string, kColumns.size()> cells;
+    cells.fill(kUnknown);
+    if (status.lod) {
+        cells[0] = formatCount(status.numbers.triangles);
+        cells[1] = formatRatio(status.numbers.ratio);
+        cells[2] = formatBytes(status.numbers.predicted_bytes);
+    }
+    if (status.frame_ms > 0.0) {
+        cells[3] = std::to_string(std::lround(framesPerSecond(lane)));
+        char time[16] = "";
+        std::snprintf(time, sizeof time, "%.1f", status.frame_ms);
+        cells[4] = time;
+    }
+    if (status.measuring)
+        cells[5] = cells[6] = "\u2026";
+    else if (status.distance && lane.settings.algorithm) {
+        cells[5] = formatError(status.distance->hausdorff);
+        cells[6] = formatError(status.distance->mean);
+    }
+    if (status.build_seconds > 0.0)
+        cells[7] = formatSeconds(status.build_seconds);
+    return cells;
+}
+
+void drawTitles(const Ui& ui, const ImVec2& begin, float width) {
+    const float y = begin.y + ui.px(8);
+    const TextStyle style{ui.theme.fonts.small, color::kSecondary};
+    drawText(ui, {begin.x + ui.px(8), y}, Align::Left, "Lane", style);
+    drawText(
+        ui, {begin.x + width * static_cast<float>(kSliderBegin), y}, Align::Left, "Target", style);
+    for (const Column& column : kColumns)
+        drawText(ui,
+                 {begin.x + width * static_cast<float>(column.right), y},
+                 Align::Right,
+                 column.title,
+                 style);
+    horizontalHairline(ui, begin.x, begin.x + width, begin.y + ui.px(kTitleHeight));
+}
+
+void drawCells(const Ui& ui, const Lane& lane, const ImVec2& begin, float y, float width) {
+    const auto cells = cellsOf(lane);
+    for (std::size_t at = 0; at < cells.size(); ++at) {
+        float right = begin.x + width * static_cast<float>(kColumns[at].right);
+        if (at == 2 && lane.status.lod) {
+            drawText(ui,
+                     {right, y + ui.px(2)},
+                     Align::Right,
+                     "exact",
+                     {ui.theme.fonts.small, color::kSecondary});
+            right -= textWidth(ui, "exact", ui.theme.fonts.small) + ui.px(4);
+        }
+        const ImU32 ink = cells[at] == kUnknown ? color::kSecondary : color::kText;
+        drawText(ui, {right, y}, Align::Right, cells[at], {nullptr, ink});
+    }
+}
+
+void drawRow(const Ui& ui,
+             const PanelInput& input,
+             const WindowState& state,
+             const Lane& lane,
+             float width) {
+    const ImVec2 begin = ImGui::GetCursorScreenPos();
+    const float height = ui.px(kRowHeight);
+    const ImVec2 end{begin.x + width, begin.y + height};
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    ImGui::PushID(static_cast<int>(lane.id));
+    if (lane.id == input.document.active_lane)
+        list.AddRectFilled(begin, end, color::kSelection);
+    const float y = begin.y + (height - ImGui::GetTextLineHeight()) * 0.5f;
+    const float slider_x = begin.x + width * static_cast<float>(kSliderBegin);
+    if (ImGui::InvisibleButton("row", {slider_x - begin.x - ui.px(4), height}))
+        ui.push(SetActiveLane{lane.id});
+    ui.record("row");
+    list.AddCircleFilled(
+        {begin.x + ui.px(12), begin.y + height * 0.5f}, ui.px(4), packed(lane.settings.colour), 24);
+    const float name_x = begin.x + ui.px(24);
+    drawText(ui,
+             {name_x, y},
+             Align::Left,
+             fitText(ui, laneName(lane.settings), slider_x - name_x - ui.px(6)));
+    if (lane.settings.algorithm) {
+        ImGui::SetCursorScreenPos({slider_x, begin.y + (height - ui.px(16)) * 0.5f});
+        laneTargetSlider(
+            ui, input, state, lane, width * static_cast<float>(kSliderEnd - kSliderBegin));
+    }
+    drawCells(ui, lane, begin, y, width);
+    horizontalHairline(ui, begin.x, end.x, end.y - ui.theme.hairline());
+    ImGui::PopID();
+    ImGui::SetCursorScreenPos({begin.x, end.y});
+}
+
+void drawTable(const Ui& ui, const PanelInput& input, const WindowState& state, const Area& area) {
+    drawTitles(ui, area.position, area.size.x);
+    const float top = area.position.y + ui.px(kTitleHeight) + ui.theme.hairline();
+    ImGui::SetCursorScreenPos({area.position.x, top});
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
+    ImGui::BeginChild("rows", {area.size.x, area.end().y - top});
+    Ui named = ui;
+    for (const Lane& lane : input.document.lanes) {
+        named.panel = "Lane " + std::to_string(lane.id);
+        drawRow(named, input, state, lane, area.size.x);
+    }
+    ImGui::EndChild();
+    ImGui::PopStyleVar();
+}
+
+} // namespace
+
+void drawComparePanel(Ui ui, const PanelInput& input, WindowState& state, const Area& area) {
+    ui.panel = "Compare";
+    if (area.size.y <= 0)
+        return;
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+    beginPanel("Compare", area.position, area.size, PanelScroll::None);
+    const float chart_width = std::round(std::max(ui.px(270), area.size.x * 0.24f));
+    const float margin = ui.px(12);
+    const Area table{{area.position.x + margin, area.position.y},
+                     {area.size.x - chart_width - 3 * margin, area.size.y - ui.px(4)}};
+    if (input.document.scene) {
+        drawTable(ui, input, state, table);
+        drawSizeChart(ui,
+                      input,
+                      state,
+                      {{table.end().x + margin, area.position.y + ui.px(8)},
+                       {chart_width, area.size.y - ui.px(14)}});
+    }
+    horizontalHairline(ui, area.position.x, area.end().x, area.position.y);
+    endPanel();
+    ImGui::PopStyleVar();
+}
+
+} // namespace lodestone::ui

@@ -1,0 +1,162 @@
+#include "ui/host.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <algorithm>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+namespace lodestone::ui {
+
+// Filled by GLFW's callbacks, which find it by the window's user pointer.
+struct Host::Events {
+    bool any = false;
+    std::vector<std::filesystem::path> dropped;
+
+    static Events& of(GLFWwindow* window) {
+        return *static_cast<Events*>(glfwGetWindowUserPointer(window));
+    }
+};
+
+namespace {
+
+// LODESTONE_SCALE where it is a sensible number, else 0.
+float scaleFromEnvironment() {
+    const char* const text = std::getenv("LODESTONE_SCALE");
+    const float scale = text ? std::strtof(text, nullptr) : 0.0f;
+    return scale >= 0.5f && scale <= 4.0f ? scale : 0.0f;
+}
+
+} // namespace
+
+Host::Host(void* window, float scale)
+    : window_(static_cast<GLFWwindow*>(window)), events_(std::make_unique<Events>()) {
+    glfwSetWindowUserPointer(window_, events_.get());
+    // Before the backend's own callbacks, which call these in turn.
+    glfwSetKeyCallback(window_,
+                       [](GLFWwindow* w, int, int, int, int) { Events::of(w).any = true; });
+    glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned) { Events::of(w).any = true; });
+    glfwSetMouseButtonCallback(window_,
+                               [](GLFWwindow* w, int, int, int) { Events::of(w).any = true; });
+    glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double) { Events::of(w).any = true; });
+    glfwSetCursorPosCallback(window_,
+                             [](GLFWwindow* w, double, double) { Events::of(w).any = true; });
+    glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int) { Events::of(w).any = true; });
+    glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int) { Events::of(w).any = true; });
+    glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { Events::of(w).any = true; });
+    glfwSetFramebufferSizeCallback(window_,
+                                   [](GLFWwindow* w, int, int) { Events::of(w).any = true; });
+    glfwSetWindowCloseCallback(window_, [](GLFWwindow* w) { Events::of(w).any = true; });
+    glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** paths) {
+        Events::of(w).any = true;
+        Events::of(w).dropped.assign(paths, paths + count);
+    });
+    IMGUI_CHECKVERSION();
+    ImGui::CreateContext();
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr;
+    io.ConfigInputTextCursorBlink = true;
+    float display_scale = 1.0f;
+    glfwGetWindowContentScale(window_, &display_scale, nullptr);
+    int window_width = 1;
+    glfwGetWindowSize(window_, &window_width, nullptr);
+    density_ = std::max(
+        1.0f, static_cast<float>(widthPx()) / static_cast<float>(std::max(1, window_width)));
+    if (scale <= 0.0f)
+        scale = std::clamp(display_scale / density_, 0.5f, 4.0f);
+    if (const float wanted = scaleFromEnvironment(); wanted > 0.0f)
+        scale = wanted;
+    theme_ = applyTheme(scale, density_);
+    ImGui_ImplGlfw_InitForOpenGL(window_, true);
+    ImGui_ImplOpenGL3_Init("#version 330 core");
+}
+
+Host::~Host() {
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+    glfwSetWindowUserPointer(window_, nullptr);
+}
+
+bool Host::waitEvents(double wait_s) {
+    events_->any = false;
+    if (wait_s > 0.0)
+        glfwWaitEventsTimeout(wait_s);
+    else
+        glfwPollEvents();
+    return std::exchange(events_->any, false);
+}
+
+void Host::beginPass() {
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::NewFrame();
+}
+
+void Host::discardPass() {
+    ImGui::EndFrame();
+}
+
+void Host::endFrame() {
+    ImGui::Render();
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+std::vector<std::filesystem::path> Host::takeDroppedFiles() {
+    return std::exchange(events_->dropped, {});
+}
+
+bool Host::takeCloseRequest() {
+    const bool wanted = glfwWindowShouldClose(window_) == GLFW_TRUE;
+    glfwSetWindowShouldClose(window_, GLFW_FALSE);
+    return wanted;
+}
+
+void Host::toggleFullScreen() {
+    if (glfwGetWindowMonitor(window_)) {
+        glfwSetWindowMonitor(window_,
+                             nullptr,
+                             windowed_.x,
+                             windowed_.y,
+                             windowed_.width,
+                             windowed_.height,
+                             GLFW_DONT_CARE);
+        return;
+    }
+    GLFWmonitor* const monitor = glfwGetPrimaryMonitor();
+    const GLFWvidmode* const mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
+    if (!mode)
+        return;
+    glfwGetWindowPos(window_, &windowed_.x, &windowed_.y);
+    glfwGetWindowSize(window_, &windowed_.width, &windowed_.height);
+    glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
+
+void Host::setTitle(const std::string& title) {
+    if (title == title_)
+        return;
+    title_ = title;
+    glfwSetWindowTitle(window_, title.c_str());
+}
+
+int Host::widthPx() const {
+    int width = 0;
+    glfwGetFramebufferSize(window_, &width, nullptr);
+    return width;
+}
+
+int Host::heightPx() const {
+    int height = 0;
+    glfwGetFramebufferSize(window_, nullptr, &height);
+    return height;
+}
+
+bool Host::minimised() const {
+    return glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE || widthPx() < 1 ||
+           heightPx() < 1;
+}
+
+} // namespace lodestone::ui

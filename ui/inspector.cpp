@@ -1,0 +1,260 @@
+#include "ui/format.h"
+#include "ui/lane_text.h"
+#include "ui/panels.h"
+#include "ui/target_slider.h"
+#include "ui/widgets.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+
+namespace lodestone::ui {
+
+namespace {
+
+void gap(const Ui& ui, float design_px) {
+    ImGui::Dummy({0, ui.px(design_px)});
+}
+
+void algorithmCombo(const Ui& ui, const Lane& lane) {
+    std::vector<std::string> names = {"Original"};
+    int selected = 0;
+    for (const Algorithm& algorithm : algorithms()) {
+        if (lane.settings.algorithm == &algorithm)
+            selected = static_cast<int>(names.size());
+        names.emplace_back(algorithm.name);
+    }
+    const std::optional<int> chosen = combo(ui, "Algorithm", names, selected);
+    if (lane.settings.algorithm)
+        tooltip(ui,
+                std::string(lane.settings.algorithm->summary) + "\n" +
+                    std::string(lane.settings.algorithm->paper));
+    if (!chosen)
+        return;
+    const auto row = static_cast<std::size_t>(*chosen);
+    const std::string_view id = row == 0 ? std::string_view() : algorithms()[row - 1].id;
+    ui.push(SetLaneAlgorithm{lane.id, std::string(id)});
+}
+
+void targetKind(const Ui& ui, const Lane& lane) {
+    constexpr std::array<std::string_view, 4> kKinds = {"%", "tri", "size", "error"};
+    constexpr std::array<std::string_view, 4> kTips = {
+        "Target as a share of the original's triangles.",
+        "Target as a number of triangles, instances counted.",
+        "Target as the size of the exported file.",
+        "Target as the estimated error in % of the scene's diagonal."};
+    const auto selected = static_cast<int>(lane.settings.target.kind);
+    const float width = ImGui::GetContentRegionAvail().x;
+    if (const auto chosen = segmented(ui, {"Target kind", kKinds, selected, kTips, width}))
+        ui.push(SetLaneTarget{lane.id, sameTarget(lane, static_cast<Target::Kind>(*chosen))});
+}
+
+void orderingControl(const Ui& ui, const Lane& lane) {
+    constexpr std::array<std::string_view, 3> kOrderings = {"triangle", "byte", "cost"};
+    constexpr std::array<std::string_view, 3> kTips = {
+        "Next comes the collapse that costs least for each instanced triangle it removes.",
+        "Next comes the collapse that costs least for each byte it saves.",
+        "Next comes the collapse that costs least: the paper's order."};
+    const ImVec2 begin = ImGui::GetCursorScreenPos();
+    drawText(ui, begin, Align::Left, "Ordering", {nullptr, color::kSecondary});
+    ImGui::Dummy({0, ImGui::GetTextLineHeight() + ui.px(2)});
+    const float width = ImGui::GetContentRegionAvail().x;
+    const auto selected = static_cast<int>(lane.settings.ordering);
+    if (const auto chosen = segmented(ui, {"Ordering", kOrderings, selected, kTips, width}))
+        ui.push(SetOrdering{lane.id, static_cast<Ordering>(*chosen)});
+}
+
+double parameterFraction(const ParameterInfo& parameter, double value) {
+    const double low = parameter.minimum;
+    const double high = parameter.maximum;
+    if (!(high > low))
+        return 0.0;
+    if (parameter.logarithmic && low > 0.0)
+        return std::log(std::max(value, low) / low) / std::log(high / low);
+    return (value - low) / (high - low);
+}
+
+double parameterAt(const ParameterInfo& parameter, double fraction) {
+    const double low = parameter.minimum;
+    const double high = parameter.maximum;
+    const double value = parameter.logarithmic && low > 0.0 ? low * std::pow(high / low, fraction)
+                                                            : low + (high - low) * fraction;
+    return parameter.kind == ParameterInfo::Kind::Integer ? std::round(value) : value;
+}
+
+std::string parameterText(const ParameterInfo& parameter, double value) {
+    char number[32] = "";
+    std::snprintf(number,
+                  sizeof number,
+                  parameter.kind == ParameterInfo::Kind::Integer ? "%.0f" : "%.3g",
+                  value);
+    return parameter.unit.empty() ? number
+                                  : std::string(number) + " " + std::string(parameter.unit);
+}
+
+void parameterSlider(const Ui& ui, const Lane& lane, const ParameterInfo& parameter, double value) {
+    SliderSpec spec;
+    spec.label = parameter.label;
+    spec.value = parameterText(parameter, value);
+    char number[32] = "";
+    std::snprintf(number, sizeof number, "%.6g", value);
+    spec.edit_text = number;
+    spec.fraction = parameterFraction(parameter, value);
+    spec.tooltip = parameter.tooltip;
+    const SliderEvent event = slider(ui, spec);
+    std::optional<double> wanted;
+    if (event.fraction)
+        wanted = parameterAt(parameter, *event.fraction);
+    if (event.typed)
+        wanted = std::strtod(event.typed->c_str(), nullptr);
+    if (wanted && std::isfinite(*wanted))
+        ui.push(SetLaneParameter{lane.id, std::string(parameter.id), *wanted, event.drag});
+    if (event.released || event.typed)
+        ui.push(EndDrag{});
+}
+
+void parameterControl(const Ui& ui, const Lane& lane, const ParameterInfo& parameter) {
+    const LaneSettings& settings = lane.settings;
+    const double value = parameterValue(*settings.algorithm, settings.parameters, parameter.id);
+    switch (parameter.kind) {
+    case ParameterInfo::Kind::Number:
+    case ParameterInfo::Kind::Integer:
+        parameterSlider(ui, lane, parameter, value);
+        break;
+    case ParameterInfo::Kind::Toggle: {
+        bool on = value != 0.0;
+        if (toggle(ui, parameter.label, on))
+            ui.push(SetLaneParameter{lane.id, std::string(parameter.id), on ? 1.0 : 0.0});
+        tooltip(ui, parameter.tooltip);
+        break;
+    }
+    case ParameterInfo::Kind::Choice: {
+        const ImVec2 begin = ImGui::GetCursorScreenPos();
+        drawText(ui, begin, Align::Left, parameter.label, {nullptr, color::kSecondary});
+        ImGui::Dummy({ImGui::GetContentRegionAvail().x, ImGui::GetTextLineHeight()});
+        tooltip(ui, parameter.tooltip);
+        const std::vector<std::string> names(parameter.choices.begin(), parameter.choices.end());
+        if (const auto chosen = combo(ui, parameter.label, names, static_cast<int>(value)))
+            ui.push(
+                SetLaneParameter{lane.id, std::string(parameter.id), static_cast<double>(*chosen)});
+        break;
+    }
+    }
+}
+
+void laneFacts(const Ui& ui, const Document& document, const Lane& lane) {
+    const LaneNumbers& numbers = lane.status.numbers;
+    if (!lane.status.lod)
+        return;
+    labelledValue(ui, "Triangles", formatCount(numbers.triangles));
+    labelledValue(ui, "Unique triangles", formatCount(numbers.unique_triangles));
+    labelledValue(ui,
+                  "Instances",
+                  formatCount(numbers.instances),
+                  "of " + formatCount(document.counts.instances));
+    if (lane.settings.algorithm)
+        labelledValue(ui, "Estimated error", formatError(numbers.error_estimate) + " %");
+}
+
+void followToggle(const Ui& ui, const Lane& lane) {
+    bool follows = lane.settings.follows_master;
+    if (toggle(ui, "Follow all lanes", follows))
+        ui.push(FollowMaster{lane.id, follows});
+    tooltip(ui, "The slider above the views moves this lane too.");
+}
+
+void drawLane(const Ui& ui, const PanelInput& input, WindowState& state, const Lane& lane) {
+    sectionTitle(ui, "Lane \u00b7 " + std::string(laneName(lane.settings)));
+    algorithmCombo(ui, lane);
+    gap(ui, 1);
+    if (lane.settings.algorithm) {
+        laneTargetSlider(ui, input, state, lane, 0.0f);
+        targetKind(ui, lane);
+        gap(ui, 0);
+        followToggle(ui, lane);
+        if (lane.settings.algorithm->family == Family::EdgeCollapse)
+            orderingControl(ui, lane);
+        for (const ParameterInfo& parameter : lane.settings.algorithm->parameters)
+            parameterControl(ui, lane, parameter);
+        gap(ui, 1);
+    }
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(8), ui.px(4)});
+    laneFacts(ui, input.document, lane);
+    ImGui::PopStyleVar();
+}
+
+constexpr std::array kInstancings = {
+    Instancing::Auto, Instancing::Gpu, Instancing::Nodes, Instancing::Expand};
+
+void drawExport(const Ui& ui, const PanelInput& input, WindowState& state, const Lane* lane) {
+    const Document& document = input.document;
+    sectionTitle(ui, "Export");
+    std::vector<std::string> names;
+    int selected = 0;
+    for (const Instancing instancing : kInstancings) {
+        if (document.export_options.instancing == instancing)
+            selected = static_cast<int>(names.size());
+        names.push_back("GLB \u00b7 " + std::string(instancingName(instancing)));
+    }
+    if (const auto chosen = combo(ui, "Format", names, selected)) {
+        ExportOptions options = document.export_options;
+        options.instancing = kInstancings[static_cast<std::size_t>(*chosen)];
+        ui.push(SetExportOptions{options});
+    }
+    tooltip(ui,
+            "How instances are written: as EXT_mesh_gpu_instancing, as nodes, whichever is "
+            "smaller, or expanded into plain triangles.");
+    const bool ready = lane && lane->status.lod;
+    const Lane* original = nullptr;
+    for (const Lane& other : document.lanes)
+        if (!other.settings.algorithm && other.status.lod)
+            original = &other;
+    const std::uint64_t size_bytes = ready ? lane->status.numbers.predicted_bytes : 0;
+    gap(ui, 0);
+    labelledValue(ui, "Size", ready ? formatBytes(size_bytes) : kUnknown, ready ? "exact" : "");
+    labelledValue(ui,
+                  "vs. original",
+                  ready && original
+                      ? formatChange(static_cast<double>(original->status.numbers.predicted_bytes),
+                                     static_cast<double>(size_bytes))
+                      : std::string(kUnknown));
+    gap(ui, 1);
+    ImGui::BeginDisabled(!ready);
+    if (primaryButton(ui, "Export LOD\u2026", ImGui::GetContentRegionAvail().x))
+        openExportDialog(input, state);
+    ImGui::EndDisabled();
+}
+
+} // namespace
+
+void drawInspector(Ui ui, const PanelInput& input, WindowState& state, const Area& area) {
+    ui.panel = "Inspector";
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+    beginPanel("Inspector", area.position, area.size, PanelScroll::None);
+    const float margin = ui.px(12);
+    const float export_height = ui.px(176);
+    const ImVec2 inner{area.size.x - 2 * margin, area.size.y - export_height - margin};
+    const Lane* const lane = input.document.findLane(input.document.active_lane);
+    ImGui::SetCursorScreenPos(area.position + ImVec2(margin, ui.px(10)));
+    ImGui::BeginChild("lane", {inner.x, std::max(1.0f, inner.y)});
+    if (lane) {
+        drawLane(ui, input, state, *lane);
+    } else {
+        sectionTitle(ui, "Lane");
+        ImGui::TextDisabled("Click a view to choose its lane.");
+    }
+    ImGui::EndChild();
+    const float top = area.end().y - export_height;
+    horizontalHairline(ui, area.position.x, area.end().x, top);
+    ImGui::SetCursorScreenPos({area.position.x + margin, top + ui.px(10)});
+    ImGui::BeginChild(
+        "export", {inner.x, export_height - ui.px(12)}, false, ImGuiWindowFlags_NoScrollbar);
+    drawExport(ui, input, state, lane);
+    ImGui::EndChild();
+    verticalHairline(ui, area.position.x, area.position.y, area.end().y);
+    endPanel();
+    ImGui::PopStyleVar();
+}
+
+} // namespace lodestone::ui

@@ -1,0 +1,162 @@
+#include "ui/camera_gestures.h"
+#include "ui/panels.h"
+#include "ui/shortcuts.h"
+
+#include <array>
+
+namespace lodestone::ui {
+
+namespace {
+
+// Key numbers as the window system's layer counts them: capitals and digits are ASCII.
+constexpr int kKeyEscape = 256;
+constexpr int kKeyTab = 258;
+constexpr int kKeyHome = 268;
+constexpr int kKeyF1 = 290;
+constexpr int kKeyF11 = 300;
+constexpr int kKeypad0 = 320;
+
+constexpr double kScaleStep = 1.1;
+constexpr DragKey kStepDrag = 0x5354455053ull; // collapsing while a key is held is one undo step
+
+constexpr std::array<Shortcut, 26> kShortcuts = {{
+    {"Left drag", "orbit (also Alt+left, middle)"},
+    {"Right drag", "pan (also Shift+middle)"},
+    {"Wheel", "zoom"},
+    {"F", "frame the selection"},
+    {"Home", "frame everything"},
+    {"Numpad 1 3 7", "from the front, right, above"},
+    {"Tab", "hide or show the panels"},
+    {"N", "normals"},
+    {"L", "wireframe"},
+    {"S / Shift+S", "larger / smaller"},
+    {"Z / Shift+Z", "further / nearer"},
+    {"F11", "full screen"},
+    {"Click on a value", "type it"},
+    {"C (hold)", "collapse 5 edges at a time"},
+    {"B", "collapse one edge"},
+    {"V", "split back two edges"},
+    {"Ctrl+O", "open a file"},
+    {"Ctrl+E", "export the active lane"},
+    {"Ctrl+Z", "undo"},
+    {"Ctrl+Shift+Z", "redo"},
+    {"Ctrl+Q", "quit"},
+    {"Click in a view", "make its lane the active one"},
+    {"Shift+click", "add a submesh to the selection"},
+    {"F1", "this sheet"},
+    {"Esc", "cancel drag, dialog or job, then quit"},
+    {"Drop a file", "open it"},
+}};
+
+bool pressed(int key) {
+    return ImGui::IsKeyPressed(key, false);
+}
+
+bool held(int key) {
+    return ImGui::IsKeyPressed(key, true);
+}
+
+void controlKeys(const Ui& ui, const PanelInput& input, WindowState& state) {
+    if (pressed('O'))
+        openBrowser(input, state);
+    if (pressed('E'))
+        openExportDialog(input, state);
+    if (pressed('Q'))
+        state.open(Dialog::Quit);
+    const bool shift = ImGui::GetIO().KeyShift;
+    if (held('Z') && !shift)
+        ui.push(Undo{});
+    if ((held('Z') && shift) || held('Y'))
+        ui.push(Redo{});
+}
+
+void cameraKeys(const Ui& ui, const CameraState& camera) {
+    const bool shift = ImGui::GetIO().KeyShift;
+    if (pressed('F'))
+        ui.push(FrameSelection{});
+    if (pressed(kKeyHome))
+        ui.push(FrameScene{});
+    if (pressed(kKeypad0 + 1))
+        ui.push(SetCamera{lookFrom(camera, AxisSide::Front)});
+    if (pressed(kKeypad0 + 3))
+        ui.push(SetCamera{lookFrom(camera, AxisSide::Right)});
+    if (pressed(kKeypad0 + 7))
+        ui.push(SetCamera{lookFrom(camera, AxisSide::Top)});
+    if (held('S'))
+        ui.push(SetCamera{zoomed(camera, shift ? kScaleStep : 1.0 / kScaleStep)});
+    if (held('Z'))
+        ui.push(SetCamera{zoomed(camera, shift ? 1.0 / kScaleStep : kScaleStep)});
+}
+
+void viewKeys(const Ui& ui, DisplayOptions view, WindowState& state) {
+    if (pressed('N')) {
+        view.shading =
+            view.shading == ShadingMode::Normals ? ShadingMode::Lit : ShadingMode::Normals;
+        ui.push(SetView{view});
+    }
+    if (pressed('L')) {
+        view.wireframe = !view.wireframe;
+        ui.push(SetView{view});
+    }
+    if (pressed(kKeyTab))
+        state.panels_hidden = !state.panels_hidden;
+}
+
+// The progressive-mesh viewer's keys, on the active lane.
+void stepKeys(const Ui& ui, LaneId lane) {
+    if (held('C'))
+        ui.push(StepCollapses{lane, 5, kStepDrag});
+    if (pressed('B'))
+        ui.push(StepCollapses{lane, 1, kStepDrag});
+    if (held('V'))
+        ui.push(StepCollapses{lane, -2, kStepDrag});
+    if (ImGui::IsKeyReleased('C') || ImGui::IsKeyReleased('B') || ImGui::IsKeyReleased('V'))
+        ui.push(EndDrag{});
+}
+
+void escapeKey(const Ui& ui, const Document& document, WindowState& state) {
+    if (ImGui::IsAnyMouseDown() && ImGui::IsAnyItemActive()) {
+        ui.widgets.drag_cancelled = true;
+        ui.push(EndDrag{});
+        ui.push(Undo{});
+    } else if (state.welcome) {
+        state.welcome = false;
+    } else if (!document.jobs.empty()) {
+        ui.push(CancelJob{0});
+    } else {
+        state.open(Dialog::Quit);
+    }
+}
+
+} // namespace
+
+std::span<const Shortcut> shortcuts() {
+    return kShortcuts;
+}
+
+void handleKeys(const Ui& ui, const PanelInput& input, WindowState& state) {
+    if (!ImGui::IsAnyMouseDown())
+        ui.widgets.drag_cancelled = false;
+    if (pressed(kKeyF11))
+        state.full_screen_toggled = true;
+    const bool popup =
+        ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+    if (popup || state.dialog != Dialog::None || ImGui::GetIO().WantTextInput)
+        return;
+    const Document& document = input.document;
+    if (pressed(kKeyF1))
+        state.open(Dialog::Shortcuts);
+    if (pressed(kKeyEscape))
+        escapeKey(ui, document, state);
+    if (ImGui::GetIO().KeyCtrl) {
+        controlKeys(ui, input, state);
+        return;
+    }
+    if (!document.scene)
+        return;
+    cameraKeys(ui, document.camera);
+    viewKeys(ui, document.view, state);
+    stepKeys(ui, document.active_lane);
+}
+
+} // namespace lodestone::ui

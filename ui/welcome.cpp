@@ -1,0 +1,124 @@
+#include "scene/generate.h"
+#include "ui/lane_text.h"
+#include "ui/panels.h"
+#include "ui/widgets.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace lodestone::ui {
+
+namespace {
+
+struct SampleWords {
+    std::string_view name;
+    std::string_view title;
+    std::string_view facts;
+};
+
+constexpr std::array<SampleWords, 4> kSamples = {{
+    {"maple", "Maple tree", "9,324 instances"},
+    {"village", "Village", "13,523 instances"},
+    {"chair", "Patio chair", "68 instances"},
+    {"bunny", "Bunny-like scan", "one closed mesh"},
+}};
+
+bool sampleCard(const Ui& ui, const SampleWords& sample, const ImVec2& size) {
+    const ImVec2 begin = ImGui::GetCursorScreenPos();
+    const bool pressed = ImGui::InvisibleButton(sample.name.data(), size);
+    ui.record(sample.name);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(begin,
+                       begin + size,
+                       ImGui::IsItemHovered() ? color::kFieldHovered : color::kField,
+                       ui.px(4));
+    drawText(ui,
+             begin + ImVec2(ui.px(10), ui.px(8)),
+             Align::Left,
+             sample.title,
+             {ui.theme.fonts.semibold});
+    drawText(ui,
+             begin + ImVec2(ui.px(10), ui.px(27)),
+             Align::Left,
+             sample.facts,
+             {ui.theme.fonts.small, color::kSecondary});
+    return pressed;
+}
+
+void recentList(const Ui& ui, const Document& document, WindowState& state, float width) {
+    constexpr std::size_t kShown = 3;
+    const std::size_t count = std::min(kShown, document.recent.size());
+    if (count == 0)
+        return;
+    ImGui::Dummy({0, ui.px(4)});
+    sectionTitle(ui, "Recent");
+    for (std::size_t at = 0; at < count; ++at) {
+        const std::filesystem::path& file = document.recent[at];
+        if (linkButton(ui, fitText(ui, file.string(), width))) {
+            ui.push(OpenScene{file});
+            state.welcome = false;
+        }
+    }
+}
+
+} // namespace
+
+void drawWelcome(Ui ui, const PanelInput& input, WindowState& state, const Area& area) {
+    if (!state.welcome)
+        return;
+    ui.panel = "Welcome";
+    const float width = std::min(ui.px(560), area.size.x - ui.px(24));
+    ImGui::SetNextWindowPos(
+        {area.position.x + area.size.x * 0.5f, area.end().y - ui.px(40)}, 0, {0.5f, 1.0f});
+    ImGui::SetNextWindowSize({width, 0});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.px(4));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, ui.theme.hairline());
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(16), ui.px(14)});
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, color::kPopup);
+    ImGui::Begin("Welcome",
+                 nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
+    const ImVec2 begin = ImGui::GetCursorScreenPos();
+    const float inner = width - ui.px(32);
+    drawText(ui, begin, Align::Left, "Welcome to Lodestone", {ui.theme.fonts.semibold});
+    drawText(ui,
+             begin + ImVec2(0, ui.px(20)),
+             Align::Left,
+             fitText(ui,
+                     "Drag the slider above the views: every lane follows. Open your own scene, or "
+                     "try one of ours.",
+                     inner),
+             {nullptr, color::kSecondary});
+    ImGui::SetCursorScreenPos(begin + ImVec2(inner - textWidth(ui, "\u00d7"), 0));
+    if (linkButton(ui, "\u00d7", color::kSecondary))
+        state.welcome = false;
+    ImGui::SetCursorScreenPos(begin + ImVec2(0, ui.px(48)));
+    const float spacing = ui.px(8);
+    const float card = (inner - 3 * spacing) / 4;
+    for (std::size_t at = 0; at < kSamples.size(); ++at) {
+        if (at > 0)
+            ImGui::SameLine(0, spacing);
+        if (sampleCard(ui, kSamples[at], {card, ui.px(52)})) {
+            ui.push(OpenSample{std::string(kSamples[at].name), 1});
+            state.welcome = false;
+        }
+    }
+    recentList(ui, input.document, state, inner);
+    ImGui::Dummy({0, ui.px(2)});
+    if (button(ui, "Open\u2026", ui.px(110)))
+        openBrowser(input, state);
+    ImGui::SameLine();
+    drawText(ui,
+             ImGui::GetCursorScreenPos() + ImVec2(ui.px(4), ui.px(5)),
+             Align::Left,
+             "or drop a file on the window",
+             {nullptr, color::kSecondary});
+    ImGui::NewLine();
+    ImGui::End();
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar(3);
+}
+
+} // namespace lodestone::ui
