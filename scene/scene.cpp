@@ -151,10 +151,12 @@ std::uint64_t triangleCount(const Submesh& submesh) {
 
 SceneCounts countScene(const Scene& scene) {
     SceneCounts counts;
-    counts.submeshes = scene.submeshes.size();
     counts.instances = scene.instances.size();
     const std::vector<InstanceRange> ranges = instanceRanges(scene);
     for (std::size_t s = 0; s < scene.submeshes.size(); ++s) {
+        if (ranges[s].size() == 0)
+            continue;
+        ++counts.submeshes;
         const std::uint64_t triangles = triangleCount(scene.submeshes[s]);
         counts.unique_triangles += triangles;
         counts.triangles += triangles * ranges[s].size();

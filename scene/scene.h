@@ -183,6 +183,7 @@ struct InstanceRange {
 
 std::vector<InstanceRange> instanceRanges(const Scene& scene); // [submeshes]
 
+// Submeshes that no instance draws (kept for the export) do not count.
 struct SceneCounts {
     std::uint64_t submeshes = 0;
     std::uint64_t instances = 0;

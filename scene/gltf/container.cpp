@@ -56,14 +56,15 @@ std::string oneLine(std::string text) {
 Result<nlohmann::json> parseJson(std::string_view text, const std::string& file) {
     while (!text.empty() && text.back() == '\0') // some writers pad the chunk with zeros
         text.remove_suffix(1);
+    if (text.find_first_not_of(" \t\r\n") == std::string_view::npos ||
+        text[text.find_first_not_of(" \t\r\n")] != '{')
+        return badInput(file + ": content is neither JSON nor GLB, so this is not a glTF file: "
+                               "check its type");
     if (nestsTooDeep(text))
         return badInput(file + ": JSON is nested deeper than " + std::to_string(kMaxNesting) +
                         " levels: re-export the file");
     try {
-        nlohmann::json json = nlohmann::json::parse(text);
-        if (!json.is_object())
-            return badInput(file + ": JSON is not an object, so this is not a glTF file");
-        return json;
+        return nlohmann::json::parse(text);
     } catch (const nlohmann::json::exception& e) {
         return badInput(file + ": JSON does not parse (" + oneLine(e.what()) +
                         "): the file is damaged or not glTF");

@@ -98,11 +98,17 @@ Result<void> readAll(const ReadContext& context, GltfContainer& container) {
 } // namespace
 
 Result<ScenePtr> readGltf(const std::filesystem::path& path, const JobContext& job) {
-    const std::string file = path.filename().string();
     const Result<std::vector<std::byte>> bytes = readFileBytes(path);
     if (!bytes)
         return tl::make_unexpected(bytes.error());
-    Result<GltfContainer> container = readContainer(*bytes, file);
+    return readGltfBytes(*bytes, path, job);
+}
+
+Result<ScenePtr> readGltfBytes(const std::vector<std::byte>& bytes,
+                               const std::filesystem::path& path,
+                               const JobContext& job) {
+    const std::string file = path.filename().string();
+    Result<GltfContainer> container = readContainer(bytes, file);
     if (!container)
         return tl::make_unexpected(container.error());
     auto scene = std::make_shared<Scene>();

@@ -16,4 +16,10 @@ namespace lodestone {
 // Errors: BadInput, "<file>: <object>: <fault>: <remedy>"; Cancelled. Any thread.
 Result<ScenePtr> readGltf(const std::filesystem::path& path, const JobContext& job);
 
+// The same from bytes in memory. path: whose name stands in messages and beside which external
+// files are looked for; it need not exist.
+Result<ScenePtr> readGltfBytes(const std::vector<std::byte>& bytes,
+                               const std::filesystem::path& path,
+                               const JobContext& job);
+
 } // namespace lodestone

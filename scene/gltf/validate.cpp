@@ -285,9 +285,9 @@ private:
             return wrong(where(), "an index (a whole number >= 0)");
         const std::size_t size = listOf(document_, target).size();
         if (*number >= size)
-            return badInput(where() + " is " + std::to_string(*number) + " but there are only " +
-                            std::to_string(size) + " " + std::string(target) +
-                            ": re-export the file");
+            return badInput(where() + " is " + std::to_string(*number) +
+                            ", which is out of range (" + std::to_string(size) + " " +
+                            std::string(target) + "): re-export the file");
         return {};
     }
 
