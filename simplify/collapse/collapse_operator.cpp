@@ -7,10 +7,17 @@
 
 namespace lodestone {
 
+// Whether two faces on an edge lie back to back now.
+bool ComponentMesh::folded(std::uint32_t face_a, std::uint32_t face_b) const {
+    const Float3 m = faceNormal(faces_[face_a]);
+    const Float3 n = faceNormal(faces_[face_b]);
+    const float product = dot(m, m) * dot(n, n);
+    return product > 0.0f && dot(m, n) < kBackToBack * std::sqrt(product);
+}
+
 bool ComponentMesh::hasFace(std::uint32_t a, std::uint32_t x, std::uint32_t y) const {
-    const Vertex& vertex = vertices_[a];
-    for (std::uint32_t r = 0; r < vertex.refs_count; ++r) {
-        const Corners& face = faces_[refs_[vertex.refs_begin + r]];
+    for (const std::uint32_t f : facesAround(a)) {
+        const Corners& face = faces_[f];
         const bool has_x = face[0] == x || face[1] == x || face[2] == x;
         const bool has_y = face[0] == y || face[1] == y || face[2] == y;
         if (has_x && has_y)
@@ -24,12 +31,9 @@ bool ComponentMesh::hasFace(std::uint32_t a, std::uint32_t x, std::uint32_t y) c
 bool ComponentMesh::keepsTopology(std::uint32_t a, std::uint32_t b) {
     const std::uint32_t near_a = nextStamp();
     const std::uint32_t opposite = nextStamp();
-    const Vertex& first = vertices_[a];
-    const Vertex& second = vertices_[b];
     std::uint32_t edge_faces = 0;
     std::array<std::uint32_t, 2> on_edge{kNone, kNone};
-    for (std::uint32_t r = 0; r < first.refs_count; ++r) {
-        const std::uint32_t f = refs_[first.refs_begin + r];
+    for (const std::uint32_t f : facesAround(a)) {
         const Corners& face = faces_[f];
         const bool dies = face[0] == b || face[1] == b || face[2] == b;
         if (dies && edge_faces < 2)
@@ -41,11 +45,11 @@ bool ComponentMesh::keepsTopology(std::uint32_t a, std::uint32_t b) {
             else if (mark_[v] != opposite)
                 mark_[v] = near_a;
     }
-    if (first.boundary && second.boundary && edge_faces > 1 &&
+    if (vertices_[a].boundary && vertices_[b].boundary && edge_faces > 1 &&
         !(edge_faces == 2 && folded(on_edge[0], on_edge[1])))
         return false;
-    for (std::uint32_t r = 0; r < second.refs_count; ++r) {
-        const Corners& face = faces_[refs_[second.refs_begin + r]];
+    for (const std::uint32_t f : facesAround(b)) {
+        const Corners& face = faces_[f];
         if (face[0] == a || face[1] == a || face[2] == a)
             continue;
         std::array<std::uint32_t, 2> others;
@@ -66,16 +70,16 @@ bool ComponentMesh::keepsTopology(std::uint32_t a, std::uint32_t b) {
 bool ComponentMesh::facesStayUpright(std::uint32_t moved,
                                      std::uint32_t other,
                                      Float3 target) const {
-    const Vertex& vertex = vertices_[moved];
-    for (std::uint32_t r = 0; r < vertex.refs_count; ++r) {
-        const Corners& face = faces_[refs_[vertex.refs_begin + r]];
+    const Float3 origin = vertices_[moved].position;
+    for (const std::uint32_t f : facesAround(moved)) {
+        const Corners& face = faces_[f];
         if (face[0] == other || face[1] == other || face[2] == other)
             continue;
         const std::size_t k = face[0] == moved ? 0 : face[1] == moved ? 1 : 2;
         const Float3 u = vertices_[face[(k + 1) % 3]].position;
         const Float3 v = vertices_[face[(k + 2) % 3]].position;
         const Float3 side = v - u;
-        const Float3 before = cross(u - vertex.position, side);
+        const Float3 before = cross(u - origin, side);
         const Float3 after = cross(u - target, side);
         const float before2 = dot(before, before);
         if (!(before2 > 0.0f))
@@ -124,14 +128,13 @@ bool ComponentMesh::tryCollapse(std::uint32_t a,
     mergeFaces(a, b);
     if (face_wedges_.empty()) {
         killWedge(b, a);
-        if (kept.refs_count > 0)
+        if (alive(a))
             addVersion(a, target);
         else
             killWedge(a, kNone);
         for (const auto& [face, unused] : merged_wedges_) // faces that died: their third corner
             for (const std::uint32_t v : faces_[face])
-                if (v != a && v != b && vertices_[v].refs_count == 0 &&
-                    log_.wedge_death[v] == kNone)
+                if (v != a && v != b && !alive(v) && log_.wedge_death[v] == kNone)
                     killWedge(v, kNone);
     } else {
         mergeWedges(a, b, t);
@@ -140,12 +143,12 @@ bool ComponentMesh::tryCollapse(std::uint32_t a,
 }
 
 void ComponentMesh::dropReference(std::uint32_t v, std::uint32_t face) {
-    Vertex& vertex = vertices_[v];
-    const auto begin = refs_.begin() + vertex.refs_begin;
-    const auto at = std::find(begin, begin + vertex.refs_count, face);
-    assert(at != begin + vertex.refs_count);
-    std::copy(at + 1, begin + vertex.refs_count, at); // order kept: results stay reproducible
-    --vertex.refs_count;
+    Ring& ring = rings_[v];
+    const auto begin = refs_.begin() + ring.begin;
+    const auto at = std::find(begin, begin + ring.count, face);
+    assert(at != begin + ring.count);
+    std::copy(at + 1, begin + ring.count, at); // order kept: results stay reproducible
+    --ring.count;
 }
 
 void ComponentMesh::killFace(std::uint32_t face) {
@@ -158,10 +161,7 @@ void ComponentMesh::killFace(std::uint32_t face) {
 void ComponentMesh::mergeFaces(std::uint32_t a, std::uint32_t b) {
     merged_wedges_.clear();
     scratch_.clear();
-    Vertex& kept = vertices_[a];
-    Vertex& gone = vertices_[b];
-    for (std::uint32_t r = 0; r < kept.refs_count; ++r) {
-        const std::uint32_t f = refs_[kept.refs_begin + r];
+    for (const std::uint32_t f : facesAround(a)) {
         const Corners& face = faces_[f];
         if (face[0] == b || face[1] == b || face[2] == b) {
             killFace(f);
@@ -173,8 +173,7 @@ void ComponentMesh::mergeFaces(std::uint32_t a, std::uint32_t b) {
             scratch_.push_back(f);
         }
     }
-    for (std::uint32_t r = 0; r < gone.refs_count; ++r) {
-        const std::uint32_t f = refs_[gone.refs_begin + r];
+    for (const std::uint32_t f : facesAround(b)) {
         if (log_.face_death[f] != kNone)
             continue;
         Corners& face = faces_[f];
@@ -182,14 +181,15 @@ void ComponentMesh::mergeFaces(std::uint32_t a, std::uint32_t b) {
         scratch_.push_back(f);
     }
     const auto count = static_cast<std::uint32_t>(scratch_.size());
-    if (count > kept.refs_capacity) {
-        kept.refs_begin = static_cast<std::uint32_t>(refs_.size());
-        kept.refs_capacity = count;
+    Ring& kept = rings_[a];
+    if (count > kept.capacity) {
+        kept.begin = static_cast<std::uint32_t>(refs_.size());
+        kept.capacity = count;
         refs_.resize(refs_.size() + count);
     }
-    std::ranges::copy(scratch_, refs_.begin() + kept.refs_begin);
-    kept.refs_count = count;
-    gone.refs_count = 0;
+    std::ranges::copy(scratch_, refs_.begin() + kept.begin);
+    kept.count = count;
+    rings_[b].count = 0;
 }
 
 void ComponentMesh::killWedge(std::uint32_t wedge, std::uint32_t parent) {
@@ -258,9 +258,7 @@ void ComponentMesh::mergeWedges(std::uint32_t a, std::uint32_t b, float t) {
         wedge_refs_[from] = 0;
         killWedge(from, into);
     }
-    const Vertex& kept = vertices_[a];
-    for (std::uint32_t r = 0; r < kept.refs_count; ++r) {
-        const std::uint32_t f = refs_[kept.refs_begin + r];
+    for (const std::uint32_t f : facesAround(a)) {
         const std::size_t k = faces_[f][0] == a ? 0 : faces_[f][1] == a ? 1 : 2;
         std::uint32_t& wedge = face_wedges_[f][k];
         for (const auto& [from, into] : merged_wedges_)
@@ -274,8 +272,7 @@ void ComponentMesh::mergeWedges(std::uint32_t a, std::uint32_t b, float t) {
     touched.erase(std::ranges::unique(touched).begin(), touched.end());
     for (const std::uint32_t wedge : touched)
         releaseWedge(wedge);
-    for (std::uint32_t r = 0; r < kept.refs_count; ++r) {
-        const std::uint32_t f = refs_[kept.refs_begin + r];
+    for (const std::uint32_t f : facesAround(a)) {
         const std::size_t k = faces_[f][0] == a ? 0 : faces_[f][1] == a ? 1 : 2;
         const std::uint32_t wedge = face_wedges_[f][k];
         // The first corner with it adds the version: wedges in order of faces, each once.
@@ -289,7 +286,7 @@ void ComponentMesh::mergeWedges(std::uint32_t a, std::uint32_t b, float t) {
             return false;
         }();
         if (!seen)
-            addVersion(wedge, kept.position);
+            addVersion(wedge, vertices_[a].position);
     }
 }
 

@@ -7,14 +7,6 @@
 
 namespace lodestone {
 
-namespace {
-
-// Two faces on an edge that are this close to lying back to back are a border, not a fold: the rims
-// of two-sided cards. Cosine between the unit normals.
-constexpr float kBackToBack = -0.98f;
-
-} // namespace
-
 ComponentMesh::ComponentMesh(const Complex& complex,
                              const InstanceWeights& weights,
                              const WedgeAttributes& attributes,
@@ -80,18 +72,19 @@ void ComponentMesh::buildVertices(std::size_t component) {
 void ComponentMesh::buildReferences() {
     live_faces_ = static_cast<std::uint32_t>(faces_.size());
     log_.face_death.assign(faces_.size(), kNone);
+    rings_.assign(vertices_.size(), {});
     for (const Corners& face : faces_)
         for (const std::uint32_t v : face)
-            ++vertices_[v].refs_capacity;
+            ++rings_[v].capacity;
     std::uint32_t at = 0;
-    for (Vertex& vertex : vertices_) {
-        vertex.refs_begin = at;
-        at += vertex.refs_capacity;
+    for (Ring& ring : rings_) {
+        ring.begin = at;
+        at += ring.capacity;
     }
     refs_.resize(at);
     for (std::uint32_t f = 0; f < faces_.size(); ++f)
         for (const std::uint32_t v : faces_[f])
-            refs_[vertices_[v].refs_begin + vertices_[v].refs_count++] = f;
+            refs_[rings_[v].begin + rings_[v].count++] = f;
     mark_.assign(vertices_.size(), 0);
     mark_face_.resize(vertices_.size());
     stamp_ = 0;
@@ -132,67 +125,58 @@ Float3 ComponentMesh::faceNormal(const Corners& face) const {
 }
 
 void ComponentMesh::buildQuadrics() {
-    for (const Corners& face : faces_)
-        addFaceQuadric(face);
+    normals_.resize(faces_.size());
+    for (std::uint32_t f = 0; f < faces_.size(); ++f)
+        addFaceQuadric(f);
     for (std::uint32_t v = 0; v < vertices_.size(); ++v)
         addBoundaryQuadrics(v);
 }
 
-void ComponentMesh::addFaceQuadric(const Corners& face) {
-    const Float3 normal = faceNormal(face);
+void ComponentMesh::addFaceQuadric(std::uint32_t face) {
+    const Float3 normal = faceNormal(faces_[face]);
     const float length = std::sqrt(dot(normal, normal));
+    normals_[face] = length > 0.0f ? normal * (1.0f / length) : Float3{};
     if (!(length > 0.0f))
         return;
-    const Float3 unit = normal * (1.0f / length);
+    const Float3 unit = normals_[face];
     float weight = 0.5f * length;
     if (!weights_.uniform())
         weight *= static_cast<float>(weights_.face({unit.x, unit.y, unit.z}));
-    for (const std::uint32_t v : face) { // a face passes through its corners: offset 0
-        addPlane(vertices_[v].quadric, unit, 0.0f, weight);
-        vertices_[v].quadric.weight += weight;
-    }
+    Quadric quadric;
+    addPlane(quadric, unit, 0.0f, weight); // a face passes through its corners: offset 0
+    quadric.weight = weight;
+    for (const std::uint32_t v : faces_[face])
+        vertices_[v].quadric = sum(vertices_[v].quadric, quadric);
 }
 
-bool ComponentMesh::folded(std::uint32_t face_a, std::uint32_t face_b) const {
-    const Float3 m = faceNormal(faces_[face_a]);
-    const Float3 n = faceNormal(faces_[face_b]);
-    const float product = dot(m, m) * dot(n, n);
-    return product > 0.0f && dot(m, n) < kBackToBack * std::sqrt(product);
-}
-
+// Borders: edges with one face, or with two that lie back to back.
 void ComponentMesh::addBoundaryQuadrics(std::uint32_t a) {
-    // For each neighbour: how many faces share the edge, and which was seen first.
-    const Vertex& vertex = vertices_[a];
-    const std::uint32_t one = nextStamp();
-    const std::uint32_t two = nextStamp();
-    const std::uint32_t many = nextStamp();
-    for (std::uint32_t r = 0; r < vertex.refs_count; ++r) {
-        const std::uint32_t face = refs_[vertex.refs_begin + r];
+    const std::uint32_t border = nextStamp();
+    const std::uint32_t inner = nextStamp();
+    for (const std::uint32_t face : facesAround(a))
         for (const std::uint32_t b : faces_[face]) {
-            if (b == a)
+            if (b <= a) // each edge once
                 continue;
-            if (mark_[b] < one) {
-                mark_[b] = one;
+            if (mark_[b] < border) {
+                mark_[b] = border;
                 mark_face_[b] = face;
-            } else if (mark_[b] == one && folded(mark_face_[b], face)) {
-                mark_[b] = two;
-            } else {
-                mark_[b] = many;
+            } else if (mark_[b] == inner ||
+                       !(dot(normals_[mark_face_[b]], normals_[face]) < kBackToBack)) {
+                mark_[b] = inner;
             }
         }
-    }
-    for (std::uint32_t r = 0; r < vertex.refs_count; ++r)
-        for (const std::uint32_t b : faces_[refs_[vertex.refs_begin + r]])
-            if (b > a && (mark_[b] == one || mark_[b] == two)) {
+    for (const std::uint32_t face : facesAround(a))
+        for (const std::uint32_t b : faces_[face])
+            if (b > a && mark_[b] == border) {
                 addBoundaryQuadric(a, b, mark_face_[b]);
                 vertices_[a].boundary = vertices_[b].boundary = true;
-                mark_[b] = many; // once
+                mark_[b] = inner; // once
             }
 }
 
 void ComponentMesh::addBoundaryQuadric(std::uint32_t a, std::uint32_t b, std::uint32_t face) {
     const Float3 edge = vertices_[b].position - vertices_[a].position;
-    const Float3 normal = faceNormal(faces_[face]);
+    const Float3 normal = normals_[face];
     const float length2 = dot(edge, edge);
     if (!(dot(normal, normal) > 0.0f) || !(length2 > 0.0f))
         return;

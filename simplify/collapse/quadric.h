@@ -103,23 +103,31 @@ struct Placement {
     float key = 0.0f;  // what the queue orders by: cost plus a tiny preference for short edges
 };
 
+// Sum of two quadrics about the middle of their vertices; half: from the middle to the second.
+inline Quadric sumAtMiddle(const Quadric& p, const Quadric& q, Float3 half) {
+    Quadric s = sum(p, q);
+    const Float3 slope{p.bx - q.bx, p.by - q.by, p.bz - q.bz};
+    s.c += 2.0f * dot(slope, half) + dot(half, apply(s, half));
+    s.bx += (p.xx - q.xx) * half.x + (p.xy - q.xy) * half.y + (p.xz - q.xz) * half.z;
+    s.by += (p.xy - q.xy) * half.x + (p.yy - q.yy) * half.y + (p.yz - q.yz) * half.z;
+    s.bz += (p.xz - q.xz) * half.x + (p.yz - q.yz) * half.y + (p.zz - q.zz) * half.z;
+    return s;
+}
+
 // Best place for the merged vertex of an edge. half: from the midpoint to the second end.
 // Tikhonov towards the midpoint keeps flat and straight neighbourhoods well-posed; a solution
 // farther out than the edge is long falls back to the best of both ends and the middle.
-Placement placeEdge(const Quadric& at_first, const Quadric& at_second, Float3 half);
-
 inline Placement placeEdge(const Quadric& p, const Quadric& q, Float3 half) {
     constexpr float kTikhonov = 1e-5f;
     constexpr float kShortEdge = 1e-7f;
     constexpr float kReach = 4.0f; // squared distance from the midpoint over |half|^2
 
-    const Quadric s = sum(translated(p, half), translated(q, half * -1.0f));
+    const Quadric s = sumAtMiddle(p, q, half);
     const float trace = s.xx + s.yy + s.zz;
     const float length2 = dot(half, half);
     const float lambda = kTikhonov * trace;
 
-    // Cholesky of A + lambda I.
-    Placement best;
+    // Cholesky (L D L^T) of A + lambda I; positive definite, or all zero.
     const float d0 = s.xx + lambda;
     const float i0 = d0 > 0.0f ? 1.0f / d0 : 0.0f;
     const float l10 = s.xy * i0;
@@ -138,12 +146,13 @@ inline Placement placeEdge(const Quadric& p, const Quadric& q, Float3 half) {
     x.y = y1 * i1 - l21 * x.z;
     x.x = y0 * i0 - l10 * x.y - l20 * x.z;
 
-    if (dot(x, x) <= kReach * length2) {
-        best.at = x;
-        best.cost = evaluate(s, x);
+    Placement best;
+    const float reach2 = dot(x, x);
+    if (reach2 <= kReach * length2) {
+        best.at = x; // A x + b = -lambda x there, so the error needs no second product with A
+        best.cost = std::max(s.c + dot(x, {s.bx, s.by, s.bz}) - lambda * reach2, 0.0f);
     } else {
-        best.at = {};
-        best.cost = s.c;
+        best.cost = std::max(s.c, 0.0f);
         for (const Float3 end : {half, half * -1.0f}) {
             const float cost = evaluate(s, end);
             if (cost < best.cost) {
