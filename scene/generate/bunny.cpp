@@ -35,7 +35,7 @@ const std::array<Blob, 14> kBlobs{{
     {{0.42, 0.70, 0.00}, {0.20, 0.26, 0.18}, 0.14, 0.5},                  // neck
     {{0.57, 0.92, 0.00}, {0.26, 0.21, 0.19}, 0.10, -0.25},                // head
     {{0.76, 0.84, 0.00}, {0.13, 0.105, 0.115}, 0.08, -0.3},               // muzzle
-    {{0.69, 0.83, 0.09}, {0.10, 0.09, 0.08}, 0.06},                       // cheeks
+    {{0.71, 0.83, 0.085}, {0.12, 0.10, 0.085}, 0.05},                     // cheeks
     {{-0.30, 0.36, 0.30}, {0.32, 0.33, 0.15}, 0.07, 0.3},                 // thighs
     {{-0.06, 0.075, 0.31}, {0.31, 0.085, 0.105}, 0.06, 0.04},             // hind feet
     {{0.36, 0.25, 0.135}, {0.095, 0.26, 0.095}, 0.07, 0.25},              // front legs
@@ -43,7 +43,7 @@ const std::array<Blob, 14> kBlobs{{
     {{-0.80, 0.36, 0.00}, {0.16, 0.15, 0.15}, 0.05},                      // tail
     {{0.37, 1.36, 0.15}, {0.105, 0.36, 0.055}, 0.06, kEarLean, kEarTurn}, // ears
     {{0.50, 1.05, 0.10}, {0.08, 0.12, 0.07}, 0.06, kEarLean},             // ear roots
-    {{0.695, 0.965, 0.155}, {0.045, 0.045, 0.030}, 0.02},                 // eyes
+    {{0.685, 0.960, 0.140}, {0.058, 0.050, 0.040}, 0.014},                // eyes
 }};
 
 // Takes world directions into the frame of something that leans and is turned.
@@ -135,9 +135,10 @@ ScenePtr makeBunny(std::uint64_t seed) {
     const std::vector<glm::dvec3> normals = vertexNormals(mesh);
     tbb::parallel_for(std::size_t{0}, mesh.positions.size(), [&](std::size_t v) {
         glm::dvec3& p = mesh.positions[v];
-        // Fur lies along the body; thin ears and paws have short hair.
-        const double length =
-            (1.0 - 0.75 * smoothStep(1.0, 1.15, p.y)) * smoothStep(0.0, 0.15, p.y);
+        // Fur lies along the body; the face, thin ears and paws have short hair.
+        const double face = smoothStep(0.45, 0.62, p.x) * smoothStep(0.68, 0.80, p.y);
+        const double length = (1.0 - 0.75 * smoothStep(1.0, 1.15, p.y)) *
+                              smoothStep(0.0, 0.15, p.y) * (1.0 - 0.65 * face);
         const double tufts = fractalNoise({p.x * 5.0, p.y * 7.0, p.z * 7.0}, noise_seed + 5, 2);
         const double strands =
             noise({p.x * 13.0 + p.y * 5.0, p.y * 30.0, p.z * 30.0}, noise_seed + 8);

@@ -105,8 +105,8 @@ private:
 };
 
 void MapleBuilder::makeParts() {
-    const Look wood{0x6B5242, 0.95};
-    const Look young{0x745445, 0.9};
+    const Look wood{0x7A6453, 0.95};
+    const Look young{0x7C5C4A, 0.9};
     trunk_ = makeTrunkLine(kTrunkHeight, random_);
     const std::array<LimbShape, 2> bough_shapes{
         {{0.036, 0.007, 0.10, 0.016, 0.14, 12, 60}, {0.033, 0.007, 0.05, 0.022, 0.14, 12, 60}}};
@@ -301,7 +301,7 @@ ScenePtr MapleBuilder::build() {
     placeLeaves();
     placeSeeds();
     skinTrunk(trunk_, kTriangles - sample_.triangleCount(), crown_seed_);
-    const std::uint32_t trunk = sample_.add("trunk", trunk_.mesh, 0.9, {0x66503F, 0.95});
+    const std::uint32_t trunk = sample_.add("trunk", trunk_.mesh, 0.9, {0x7B6757, 0.95});
     sample_.place(trunk, Trs{}, wood);
     return sample_.finish();
 }

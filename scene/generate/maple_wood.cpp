@@ -95,7 +95,7 @@ Twig makeTwig(int shoot_pairs, Random& random) {
 Limb makeTrunkLine(double height, Random& random) {
     Limb trunk;
     const double phase = random.in(0.0, 6.0);
-    constexpr int kRings = 90;
+    constexpr int kRings = 84;
     for (int r = 0; r <= kRings; ++r) {
         // Rings are denser where the roots spread.
         const double t = static_cast<double>(r) / kRings;
@@ -111,7 +111,7 @@ Limb makeTrunkLine(double height, Random& random) {
 }
 
 void skinTrunk(Limb& trunk, std::size_t triangle_count, std::uint32_t seed) {
-    constexpr int kSides = 40;
+    constexpr int kSides = 64;
     addTube(trunk.mesh, trunk.path, kSides);
     refineTo(trunk.mesh, triangle_count);
     for (glm::dvec3& p : trunk.mesh.positions) {
@@ -126,10 +126,9 @@ void skinTrunk(Limb& trunk, std::size_t triangle_count, std::uint32_t seed) {
         const glm::dvec3 dir = out / distance;
         const double fall = p.y / 0.34;
         const double flare = 1.0 / (1.0 + fall * fall);
-        const double roots = 0.5 + 0.5 * noise({dir.x * 2.2, 0.3, dir.z * 2.2}, seed + 3) +
-                             0.45 * noise({dir.x * 4.6, p.y * 0.4, dir.z * 4.6}, seed + 4);
-        const double swell = 1.0 + flare * (0.35 + 1.1 * std::max(0.0, roots));
-        const double depth = 0.05 + 0.05 * smoothStep(0.05, 0.2, ring.radius);
+        const double roots = 0.35 + noise({dir.x * 2.1, p.y * 0.3, dir.z * 2.1}, seed + 3);
+        const double swell = 1.0 + flare * (0.40 + 0.80 * std::max(0.0, roots));
+        const double depth = 0.04 + 0.05 * smoothStep(0.05, 0.2, ring.radius) * (1.0 - flare);
         p += dir * (distance * (swell - 1.0 + depth * bark(dir, p.y * 2.2, seed)));
     }
 }

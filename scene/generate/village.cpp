@@ -372,11 +372,18 @@ void VillageBuilder::placeStreetFurniture() {
     const Trs well{onGround(4.0, 5.5) + glm::dvec3(0, 0.15, 0), yaw(0.4), glm::dvec3(1.0)};
     sample_.place(well_, well, group);
     sample_.place(well_roof_, well, group);
-    for (std::size_t i = 35; i + 40 < roads_[0].points.size(); i += 47) {
-        const RoadPoint& p = roads_[0].points[i];
-        const glm::dvec2 at = p.at + leftOf(p.heading) * (kRoadHalfWidth + 2.2);
-        if (clearOfRoads(at, 1.4) && sites_.isFree(at, 1.8))
-            along(cart_, at, p.heading, group);
+    for (const std::size_t i : {std::size_t{18}, std::size_t{48}, roads_[0].points.size() - 30}) {
+        const RoadPoint& p = roads_[0].points[i]; // by the fields
+        const glm::dvec2 at = p.at + leftOf(p.heading) * (kRoadHalfWidth + 2.6);
+        along(cart_, at, leftOf(p.heading), group);
+        sites_.take(at, 3.0);
+    }
+    for (const double a : {0.2, 2.7}) { // and on the square
+        const glm::dvec2 at = glm::dvec2(cosine(a), sine(a)) * 8.5;
+        sample_.place(
+            cart_,
+            {onGround(at.x, at.y) + glm::dvec3(0, 0.13, 0), yaw(3.0 * a), glm::dvec3(1.0)},
+            group);
     }
 }
 
