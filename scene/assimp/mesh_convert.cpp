@@ -109,16 +109,16 @@ Rows rowsOf(const Geometry& geometry) {
         rows.stride += attribute.stride();
     rows.bytes.resize(rows.stride * geometry.positions.size());
     std::size_t column = 0;
-    const auto copyColumn = [&](const void* from, std::size_t size) {
+    const auto copy_column = [&](const void* from, std::size_t size) {
         for (std::size_t v = 0; v < geometry.positions.size(); ++v)
             std::memcpy(rows.bytes.data() + v * rows.stride + column,
                         static_cast<const std::byte*>(from) + v * size,
                         size);
         column += size;
     };
-    copyColumn(geometry.positions.data(), sizeof(glm::vec3));
+    copy_column(geometry.positions.data(), sizeof(glm::vec3));
     for (const Attribute& attribute : geometry.attributes)
-        copyColumn(attribute.bytes.data(), attribute.stride());
+        copy_column(attribute.bytes.data(), attribute.stride());
     return rows;
 }
 

@@ -41,12 +41,12 @@ struct Stage {
     double end = 1.0;
 };
 
-// Sums of measureBlock(begin, end, sums) over [0, count), added up in order.
+// Sums of measure_block(begin, end, sums) over [0, count), added up in order.
 template <class MeasureBlock>
 Result<Sums> sumBlocks(std::uint64_t count,
                        const Stage& stage,
                        const JobContext& job,
-                       const MeasureBlock& measureBlock) {
+                       const MeasureBlock& measure_block) {
     const std::uint64_t block_count = (count + kBlockPoints - 1) / kBlockPoints;
     constexpr std::uint64_t kBatchBlocks = 1024; // what is held at a time
     std::vector<Sums> blocks;
@@ -56,7 +56,7 @@ Result<Sums> sumBlocks(std::uint64_t count,
         tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
             const std::uint64_t begin = (first + i) * kBlockPoints;
             if (!job.stopRequested())
-                measureBlock(begin, std::min(begin + kBlockPoints, count), blocks[i]);
+                measure_block(begin, std::min(begin + kBlockPoints, count), blocks[i]);
         });
         if (job.stopRequested())
             return cancelled();

@@ -62,13 +62,13 @@ Result<SurfaceSampler> SurfaceSampler::build(std::span<const SurfacePiece> piece
 void SurfaceSampler::visit(const Request& request,
                            const std::function<void(const glm::dvec3&)>& visit) const {
     const double per_sample = area() / static_cast<double>(request.count);
-    const auto areaAt = [&](std::uint64_t sample) {
+    const auto area_at = [&](std::uint64_t sample) {
         return (static_cast<double>(sample) + uniform(request.seed, sample, 0)) * per_sample;
     };
     if (request.begin >= request.end)
         return;
     const auto after =
-        std::upper_bound(area_before_.begin(), area_before_.end(), areaAt(request.begin));
+        std::upper_bound(area_before_.begin(), area_before_.end(), area_at(request.begin));
     const auto found = static_cast<std::size_t>(after - area_before_.begin());
     std::uint64_t sample = request.begin;
     for (std::size_t i = std::min(found, patches_.size()) - 1; i < patches_.size(); ++i) {
@@ -78,7 +78,7 @@ void SurfaceSampler::visit(const Request& request,
         for (std::size_t t = patch.first_triangle; t < patch.last_triangle; ++t) {
             const Triangle triangle = piece.triangle(t);
             reached += areaOf(triangle);
-            for (; sample < request.end && areaAt(sample) < reached; ++sample)
+            for (; sample < request.end && area_at(sample) < reached; ++sample)
                 visit(pointIn(
                     triangle, uniform(request.seed, sample, 1), uniform(request.seed, sample, 2)));
             if (sample == request.end)

@@ -202,12 +202,12 @@ TEST(Distance, EqualsBruteForceForManySmallOverlappingInstances) {
 TEST(Distance, IsBitEqualForAnyNumberOfThreads) {
     const Scene a = makeScene(makeBlob(24, 32), difficultTransforms());
     const Scene b = makeScene(makeBlob(9, 12), difficultTransforms());
-    const auto measureWith = [&](std::size_t thread_count) {
+    const auto measure_with = [&](std::size_t thread_count) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, thread_count);
         return measure(a, b).value();
     };
-    const Distance one = measureWith(1);
-    const Distance four = measureWith(4);
+    const Distance one = measure_with(1);
+    const Distance four = measure_with(4);
     EXPECT_EQ(one.hausdorff, four.hausdorff);
     EXPECT_EQ(one.mean, four.mean);
     EXPECT_EQ(one.rms, four.rms);
