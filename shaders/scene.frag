@@ -260,7 +260,7 @@ void main() {
 #ifdef WIREFRAME
     vec3 d = edges.distance_px;
     float nearest = min(d.x, min(d.y, d.z));
-    srgb = mix(srgb, frame.wire_color.rgb, edges.strength * (1.0 - smoothstep(0.4, 1.4, nearest)));
+    srgb = mix(srgb, frame.wire_color.rgb, edges.strength * (1.0 - smoothstep(0.2, 1.1, nearest)));
 #endif
     picture = vec4(srgb, alpha);
 }

@@ -30,7 +30,7 @@ void main() {
         altitude_px = doubled_area / lengths;
         // Triangles of about a pixel would drown the picture in lines: they fade.
         float narrowest = min(altitude_px.x, min(altitude_px.y, altitude_px.z));
-        strength = mix(0.25, 0.9, smoothstep(1.0, 8.0, narrowest));
+        strength = mix(0.12, 0.85, smoothstep(1.0, 14.0, narrowest));
     }
     for (int i = 0; i < 3; ++i) {
         gl_Position = gl_in[i].gl_Position;

@@ -1,0 +1,357 @@
+#include "render/view.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <gtest/gtest.h>
+#include <optional>
+#include <stb_image_write.h>
+
+namespace lodestone {
+namespace {
+
+Attribute floats(const std::string& semantic, int components, const std::vector<float>& values) {
+    Attribute attribute;
+    attribute.semantic = semantic;
+    attribute.components = static_cast<std::uint8_t>(components);
+    attribute.bytes.resize(values.size() * sizeof(float));
+    std::memcpy(attribute.bytes.data(), values.data(), attribute.bytes.size());
+    return attribute;
+}
+
+// The square -1..1 in the xy plane, facing +z; texture coordinates as glTF: v down.
+GeometryPtr square(bool with_normals) {
+    auto geometry = std::make_shared<Geometry>();
+    geometry->positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    geometry->indices = {0, 1, 2, 0, 2, 3};
+    if (with_normals)
+        geometry->attributes.push_back(floats("NORMAL", 3, {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}));
+    geometry->attributes.push_back(floats("TEXCOORD_0", 2, {0, 1, 1, 1, 1, 0, 0, 0}));
+    return geometry;
+}
+
+void appendBytes(void* context, void* data, int size_bytes) {
+    const auto* begin = static_cast<const std::byte*>(data);
+    auto* bytes = static_cast<std::vector<std::byte>*>(context);
+    bytes->insert(bytes->end(), begin, begin + size_bytes);
+}
+
+// 2 x 2 pixels, rows top-down.
+Image pngImage(const std::vector<std::uint8_t>& rgba) {
+    auto bytes = std::make_shared<std::vector<std::byte>>();
+    stbi_write_png_to_func(appendBytes, bytes.get(), 2, 2, 4, rgba.data(), 8);
+    Image image;
+    image.mime_type = "image/png";
+    image.bytes = bytes;
+    return image;
+}
+
+std::shared_ptr<Scene> sceneOf(const GeometryPtr& geometry, const Material& material) {
+    auto scene = std::make_shared<Scene>();
+    scene->materials.push_back(material);
+    Primitive primitive;
+    primitive.geometry = geometry;
+    primitive.material = 0;
+    scene->submeshes.push_back({"square", {primitive}});
+    scene->instances.emplace_back();
+    return scene;
+}
+
+Material unlit(const glm::vec4& color) {
+    Material material;
+    material.base_color = color;
+    material.unlit = true;
+    return material;
+}
+
+class ViewTest : public ::testing::Test {
+protected:
+    static constexpr int kSize = 64;
+
+    void SetUp() override {
+        Result<std::unique_ptr<GlContext>> context = createHeadlessContext();
+        if (!context) {
+            const char* ci = std::getenv("CI");
+            if (ci != nullptr && std::string_view(ci) == "true")
+                FAIL() << context.error().message;
+            GTEST_SKIP() << "no EGL: " << context.error().message;
+        }
+        context_ = std::move(*context);
+        Result<Renderer> renderer = Renderer::create(*context_);
+        ASSERT_TRUE(renderer) << renderer.error().message;
+        renderer_ = *renderer;
+        Result<View> view = View::create(*renderer_);
+        ASSERT_TRUE(view);
+        view_ = std::move(*view);
+    }
+
+    // Loads the scene, aims a camera straight at the xy plane that shows -2..2.
+    void load(ScenePtr scene) {
+        lod_ = LodHandle();
+        Result<GpuScene> gpu = GpuScene::create(*renderer_, scene);
+        ASSERT_TRUE(gpu) << gpu.error().message;
+        gpu_ = std::move(*gpu);
+        const Result<UploadReport> uploaded = gpu_->update(lod_, fullLod(*scene));
+        ASSERT_TRUE(uploaded) << uploaded.error().message;
+        input_ = {};
+        input_.scene = &*gpu_;
+        input_.lod = &lod_;
+        input_.size = {kSize, kSize};
+        input_.options.background = Background::Solid;
+        input_.options.background_srgb = glm::vec3(0.0f);
+        input_.camera.azimuth_rad = 0.0;
+        input_.camera.elevation_rad = 0.0;
+        input_.camera.orthographic = true;
+        input_.camera.target = gpu_->bounds().center();
+        input_.camera.scene_center = input_.camera.target;
+        input_.camera.scene_radius = 10.0;
+        input_.camera.distance = 2.0 / std::tan(input_.camera.yfov_rad * 0.5);
+    }
+
+    Pixels draw() {
+        const Result<DrawReport> report = view_->draw(input_);
+        EXPECT_TRUE(report) << report.error().message;
+        if (report)
+            report_ = *report;
+        const Result<Pixels> pixels = view_->readPixels();
+        EXPECT_TRUE(pixels);
+        return pixels ? *pixels : Pixels(kSize, kSize, {});
+    }
+
+    // x, y: -2..2, y up.
+    static Rgba8 at(const Pixels& pixels, double x, double y) {
+        return pixels.at(static_cast<std::uint32_t>((x + 2.0) / 4.0 * kSize),
+                         static_cast<std::uint32_t>((2.0 - y) / 4.0 * kSize));
+    }
+
+    static double litShare(const Pixels& pixels) {
+        std::size_t lit = 0;
+        for (std::size_t i = 0; i < pixels.rgba.size(); i += 4)
+            lit += pixels.rgba[i] + pixels.rgba[i + 1] + pixels.rgba[i + 2] > 24 ? 1 : 0;
+        return 4.0 * static_cast<double>(lit) / static_cast<double>(pixels.rgba.size());
+    }
+
+    std::unique_ptr<GlContext> context_;
+    std::optional<Renderer> renderer_;
+    std::optional<GpuScene> gpu_;
+    LodHandle lod_;
+    std::optional<View> view_;
+    View::Input input_;
+    DrawReport report_;
+};
+
+void expectColor(const Rgba8& found, const Rgba8& wanted, int tolerance = 3) {
+    for (std::size_t c = 0; c < 4; ++c)
+        EXPECT_NEAR(int(found[c]), int(wanted[c]), tolerance) << "channel " << c;
+}
+
+TEST_F(ViewTest, SquareCoversAQuarterInItsOwnColour) {
+    load(sceneOf(square(true), unlit({1.0f, 0.2140f, 0.0f, 1.0f})));
+    const Pixels pixels = draw();
+    expectColor(at(pixels, 0.0, 0.0), {255, 128, 0, 255});
+    expectColor(at(pixels, 1.5, 0.0), {0, 0, 0, 255});
+    EXPECT_NEAR(litShare(pixels), 0.25, 0.02);
+    EXPECT_EQ(report_.draw_calls, 1u);
+    EXPECT_EQ(report_.triangles, 2u);
+}
+
+TEST_F(ViewTest, TextureIsTheRightWayUp) {
+    Material material = unlit(glm::vec4(1.0f));
+    material.base_color_texture.image = 0;
+    material.base_color_texture.nearest = true;
+    const auto scene = sceneOf(square(true), material);
+    scene->images.push_back(
+        pngImage({255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 255}));
+    load(scene);
+    const Pixels pixels = draw();
+    expectColor(at(pixels, -0.5, 0.5), {255, 0, 0, 255});
+    expectColor(at(pixels, 0.5, 0.5), {0, 255, 0, 255});
+    expectColor(at(pixels, -0.5, -0.5), {0, 0, 255, 255});
+    expectColor(at(pixels, 0.5, -0.5), {255, 255, 255, 255});
+}
+
+TEST_F(ViewTest, AlphaMaskCutsAndBlendMixes) {
+    Material material = unlit(glm::vec4(1.0f));
+    material.base_color_texture.image = 0;
+    material.base_color_texture.nearest = true;
+    material.alpha_mode = AlphaMode::Mask;
+    const auto scene = sceneOf(square(true), material);
+    scene->images.push_back(
+        pngImage({255, 255, 255, 255, 255, 255, 255, 0, 255, 255, 255, 0, 255, 255, 255, 255}));
+    load(scene);
+    for (const int samples : {1, 4}) {
+        input_.options.samples = samples;
+        const Pixels cut = draw();
+        expectColor(at(cut, -0.5, 0.5), {255, 255, 255, 255});
+        expectColor(at(cut, 0.5, 0.5), {0, 0, 0, 255});
+    }
+    Material glass = unlit({1.0f, 1.0f, 1.0f, 0.5f});
+    glass.alpha_mode = AlphaMode::Blend;
+    load(sceneOf(square(true), glass));
+    expectColor(at(draw(), 0.0, 0.0), {128, 128, 128, 255});
+}
+
+TEST_F(ViewTest, MirroredInstancesKeepFacingAndCulling) {
+    const auto scene = sceneOf(square(true), unlit(glm::vec4(1.0f)));
+    scene->instances[0].transform[0][0] = -1.0;
+    load(scene); // all mirrored
+    EXPECT_NEAR(litShare(draw()), 0.25, 0.02);
+
+    scene->instances.emplace_back();
+    scene->instances[0].transform[3] = glm::dvec4(-1.0, 0.0, 0.0, 1.0);
+    scene->instances[1].transform[3] = glm::dvec4(1.0, 0.0, 0.0, 1.0);
+    load(scene); // both hands in one call
+    EXPECT_NEAR(litShare(draw()), 0.5, 0.03);
+    EXPECT_EQ(report_.draw_calls, 1u);
+
+    setAxisView(input_.camera, AxisView::Back); // single-sided: nothing from behind
+    EXPECT_EQ(litShare(draw()), 0.0);
+    input_.options.back_faces = BackFaces::Shown;
+    EXPECT_NEAR(litShare(draw()), 0.5, 0.03);
+}
+
+TEST_F(ViewTest, NormalsAreRightUnderShearMirrorAndScale) {
+    // The square's plane z = 0 becomes z = -x / 2: its normal is (1, 0, 2) / sqrt(5).
+    for (const double mirror : {1.0, -1.0}) {
+        const auto scene = sceneOf(square(true), Material{});
+        glm::dmat4& transform = scene->instances[0].transform;
+        transform[0] = glm::dvec4(mirror, 0.0, -0.5 * mirror, 0.0);
+        transform[1] = glm::dvec4(0.7, 3.0, -0.35, 0.0); // shear in the plane, stretched
+        transform[2] = glm::dvec4(0.0, 0.0, 0.01, 0.0);
+        load(scene);
+        input_.options.shading = Shading::Normals;
+        const double root = std::sqrt(5.0);
+        expectColor(at(draw(), 0.0, 0.0),
+                    {static_cast<std::uint8_t>(std::lround(127.5 * (1.0 / root + 1.0))),
+                     128,
+                     static_cast<std::uint8_t>(std::lround(127.5 * (2.0 / root + 1.0))),
+                     255});
+    }
+}
+
+TEST_F(ViewTest, MissingNormalsAreShadedByTheFace) {
+    load(sceneOf(square(false), Material{}));
+    input_.options.shading = Shading::Normals;
+    expectColor(at(draw(), 0.0, 0.0), {128, 128, 255, 255});
+}
+
+TEST_F(ViewTest, EveryShadingShowsTheModelAndWireframeChangesIt) {
+    load(sceneOf(square(true), Material{}));
+    for (int shading = 0; shading <= int(Shading::ByInstance); ++shading) {
+        input_.options.shading = Shading(shading);
+        input_.options.wireframe = false;
+        const Pixels plain = draw();
+        EXPECT_NEAR(litShare(plain), 0.25, 0.02) << "shading " << shading;
+        input_.options.wireframe = true;
+        const Pixels wired = draw();
+        EXPECT_NE(plain.rgba, wired.rgba) << "shading " << shading;
+        EXPECT_EQ(at(plain, 0.5, -0.25), at(wired, 0.5, -0.25)) << "shading " << shading;
+    }
+}
+
+TEST_F(ViewTest, UnchangedViewIsNotRedrawn) {
+    load(sceneOf(square(true), Material{}));
+    draw();
+    EXPECT_TRUE(report_.drew);
+    EXPECT_TRUE(report_.cost_known || !renderer_->info().is_software);
+    draw();
+    EXPECT_FALSE(report_.drew);
+    orbitCamera(input_.camera, 0.1, 0.0);
+    draw();
+    EXPECT_TRUE(report_.drew);
+    const Result<UploadReport> same = gpu_->update(lod_, fullLod(*gpu_->scene()));
+    ASSERT_TRUE(same);
+    EXPECT_EQ(same->bytes, 0u);
+    draw();
+    EXPECT_FALSE(report_.drew);
+    gpu_->setHiddenSubmeshes({true});
+    EXPECT_EQ(litShare(draw()), 0.0);
+    EXPECT_TRUE(report_.drew);
+}
+
+TEST_F(ViewTest, LodsShareGeometryAndFreeWhatNoneUses) {
+    const auto scene = sceneOf(square(true), unlit(glm::vec4(1.0f)));
+    scene->instances.emplace_back();
+    scene->instances[1].transform[3] = glm::dvec4(1.0, 1.0, 0.0, 1.0);
+    load(scene);
+    const std::uint64_t before = gpu_->memoryBytes();
+    LodHandle other;
+    ASSERT_EQ(gpu_->update(other, fullLod(*scene))->bytes, 0u);
+    EXPECT_NE(other.revision(), lod_.revision());
+
+    Lod smaller = fullLod(*scene);
+    auto triangle = std::make_shared<Geometry>(*smaller.submeshes[0].primitives[0]);
+    triangle->indices = {0, 1, 2};
+    smaller.submeshes[0].primitives[0] = triangle;
+    smaller.submeshes[0].instance_order =
+        std::make_shared<const std::vector<std::uint32_t>>(std::vector<std::uint32_t>{1, 0});
+    smaller.submeshes[0].kept_instances = 1;
+    const Result<UploadReport> changed = gpu_->update(other, smaller);
+    ASSERT_TRUE(changed);
+    EXPECT_EQ(changed->geometries, 1u);
+    EXPECT_EQ(changed->instance_buffers, 1u);
+    EXPECT_EQ(other.triangles(), 1u);
+    EXPECT_GT(gpu_->memoryBytes(), before);
+    input_.lod = &other;
+    EXPECT_NEAR(litShare(draw()), 0.125, 0.02); // half a square, one of two instances
+    other = LodHandle();
+    EXPECT_EQ(gpu_->memoryBytes(), before);
+}
+
+TEST_F(ViewTest, FarFromTheOriginStaysSharp) {
+    const auto scene = sceneOf(square(true), unlit(glm::vec4(1.0f)));
+    scene->instances[0].transform[3] = glm::dvec4(3e8, -7e8, 5e8, 1.0);
+    load(scene);
+    EXPECT_NEAR(litShare(draw()), 0.25, 0.02);
+}
+
+TEST_F(ViewTest, EmptyAndOddScenesDrawTheBackground) {
+    load(std::make_shared<Scene>());
+    EXPECT_EQ(litShare(draw()), 0.0);
+    auto collapsed = std::make_shared<Geometry>();
+    const auto scene = sceneOf(collapsed, Material{});
+    load(scene);
+    EXPECT_EQ(litShare(draw()), 0.0);
+    EXPECT_EQ(report_.draw_calls, 0u);
+    input_.scene = nullptr;
+    input_.options.background_srgb = glm::vec3(1.0f);
+    EXPECT_EQ(litShare(draw()), 1.0);
+    input_.size = {0, 10};
+    EXPECT_FALSE(view_->draw(input_));
+}
+
+TEST_F(ViewTest, TransparentBackgroundHasStraightAlpha) {
+    load(sceneOf(square(true), unlit(glm::vec4(1.0f))));
+    input_.options.background = Background::Transparent;
+    const Pixels pixels = draw();
+    EXPECT_EQ(at(pixels, 1.5, 1.5)[3], 0);
+    expectColor(at(pixels, 0.0, 0.0), {255, 255, 255, 255});
+}
+
+TEST_F(ViewTest, UndecodableImageIsNotedAndDrawnNeutral) {
+    Material material = unlit(glm::vec4(1.0f));
+    material.base_color_texture.image = 0;
+    const auto scene = sceneOf(square(true), material);
+    Image image;
+    image.mime_type = "image/ktx2";
+    image.bytes = std::make_shared<std::vector<std::byte>>(100);
+    scene->images.push_back(image);
+    load(scene);
+    ASSERT_EQ(gpu_->notes().size(), 1u);
+    EXPECT_NE(gpu_->notes()[0].find("image/ktx2"), std::string::npos);
+    expectColor(at(draw(), 0.0, 0.0), {255, 255, 255, 255});
+}
+
+TEST_F(ViewTest, MeasuringCountsTheFramesAskedFor) {
+    load(sceneOf(square(true), Material{}));
+    MeasureOptions options;
+    options.warmup_frames = 1;
+    options.frames = 3;
+    const Result<MeasureReport> report = view_->measure(input_, options);
+    ASSERT_TRUE(report);
+    EXPECT_EQ(report->frames, 3u);
+    EXPECT_GT(report->mean_ms, 0.0);
+}
+
+} // namespace
+} // namespace lodestone
