@@ -397,7 +397,7 @@ void run(Document&, const RetryLane&) {}
 
 } // namespace
 
-void apply(Document& document, const Command& command) {
+void applyCommand(Document& document, const Command& command) {
     std::visit([&document](const auto& value) { run(document, value); }, command);
 }
 

@@ -7,7 +7,7 @@
 
 namespace lodestone {
 
-// --- requests: carried out by Session, no effect on the document by apply() ---
+// --- requests: carried out by Session, no effect on the document by applyCommand() ---
 struct OpenScene {
     std::filesystem::path path;
 };
@@ -182,8 +182,8 @@ private:
 };
 
 // Changes the document. An edit that names a missing lane, parameter or submesh, or brings a
-// non-finite number, changes nothing and reports a warning. apply + Undo restores every edited
-// value. An edit that changes nothing leaves no undo step. Main thread.
-void apply(Document& document, const Command& command);
+// non-finite number, changes nothing and reports a warning. applyCommand + Undo restores every
+// edited value. An edit that changes nothing leaves no undo step. Main thread.
+void applyCommand(Document& document, const Command& command);
 
 } // namespace lodestone

@@ -1,6 +1,6 @@
 #pragma once
-// The state of the window: scene, lanes, edits. Main thread only. Changed by apply(Document&,
-// Command) and by Session; panels read it.
+// The state of the window: scene, lanes, edits. Main thread only. Changed by
+// applyCommand(Document&, Command) and by Session; panels read it.
 #include "app/history.h"
 #include "app/lane.h"
 #include "app/view_state.h"

@@ -161,7 +161,7 @@ struct Session::Impl {
 
     template <class Edit>
     void run(const Edit& command) {
-        apply(document, command);
+        applyCommand(document, command);
     }
 
     void commit(FinishedJob& finished) {
