@@ -1,6 +1,7 @@
 #include "scene/export.h"
 
 #include "scene/atomic_file.h"
+#include "scene/expansion.h"
 #include "scene/gltf/writer.h"
 
 #include <algorithm>
@@ -134,6 +135,23 @@ ExportReport reportOf(const ExportPlan& plan, const Layout& layout, const LodSha
     return report;
 }
 
+struct Target {
+    fs::path path;
+    ExportOptions options;
+};
+
+Result<ExportReport>
+writeScene(const Scene& scene, const Lod& lod, const LodShape& shape, const Target& target) {
+    const ExportPlan plan(scene, target.options);
+    const Layout layout = chooseLayout(plan, shape);
+    const Result<void> done = target.options.container == Container::Gltf
+                                  ? writeGltf(target.path, plan, layout, lod)
+                                  : writeGlb(target.path, plan, layout, lod);
+    if (!done)
+        return tl::unexpected(done.error());
+    return reportOf(plan, layout, shape);
+}
+
 } // namespace
 
 Result<ExportReport> exportScene(const Scene& scene,
@@ -142,14 +160,14 @@ Result<ExportReport> exportScene(const Scene& scene,
                                  const ExportOptions& options) {
     ExportOptions used = options;
     used.container = isGltfPath(path, options.container) ? Container::Gltf : Container::Glb;
-    const ExportPlan plan(scene, used);
-    const LodShape shape = shapeOf(scene, lod);
-    const Layout layout = chooseLayout(plan, shape);
-    const Result<void> done = used.container == Container::Gltf ? writeGltf(path, plan, layout, lod)
-                                                                : writeGlb(path, plan, layout, lod);
-    if (!done)
-        return tl::unexpected(done.error());
-    return reportOf(plan, layout, shape);
+    if (used.instancing != Instancing::Expand)
+        return writeScene(scene, lod, shapeOf(scene, lod), {path, used});
+    const Expansion expansion = planExpansion(scene);
+    Result<Lod> expanded = expandLod(expansion, scene, lod, {});
+    if (!expanded)
+        return tl::unexpected(expanded.error());
+    const LodShape shape = expandShape(expansion, scene, shapeOf(scene, lod));
+    return writeScene(*expansion.skeleton, *expanded, shape, {path, used});
 }
 
 } // namespace lodestone

@@ -70,6 +70,9 @@ std::set<std::uint32_t> rewriteReferences(json& document, CarriedData& carried) 
     visitor.accessor = [&](json& value) {
         toNumber(value, carried.accessor(value.get<std::uint32_t>()));
     };
+    visitor.skin_accessor = [&](json& value) {
+        toNumber(value, carried.accessor(value.get<std::uint32_t>(), CarriedData::Use::Skin));
+    };
     visitor.buffer_view = [&](json& value) {
         toNumber(value, carried.bufferView(value.get<std::uint32_t>()));
     };
@@ -92,6 +95,36 @@ json headOf(const json& document) {
     return head;
 }
 
+// Whether some attribute has a type that core glTF does not allow.
+bool isQuantized(const Attribute& attribute) {
+    if (attribute.type == ComponentType::Float32)
+        return false;
+    const std::string_view semantic = attribute.semantic;
+    const bool is_unsigned =
+        attribute.type == ComponentType::UInt8 || attribute.type == ComponentType::UInt16;
+    if (semantic.starts_with("TEXCOORD_"))
+        return !is_unsigned || !attribute.normalized;
+    return semantic == "POSITION" || semantic == "NORMAL" || semantic == "TANGENT";
+}
+
+bool needsQuantization(const Scene& scene) {
+    for (const Submesh& submesh : scene.submeshes)
+        for (const Primitive& primitive : submesh.primitives) {
+            if (primitive.position_type != ComponentType::Float32 ||
+                std::ranges::any_of(primitive.geometry->attributes, isQuantized))
+                return true;
+            for (const MorphTarget& target : primitive.geometry->morph_targets)
+                if (std::ranges::any_of(target.attributes, isQuantized))
+                    return true;
+        }
+    return false;
+}
+
+void addName(std::vector<std::string>& names, const std::string& name) {
+    if (std::ranges::find(names, name) == names.end())
+        names.push_back(name);
+}
+
 } // namespace
 
 ExportPlan::ExportPlan(const Scene& from, const ExportOptions& with)
@@ -105,6 +138,10 @@ ExportPlan::ExportPlan(const Scene& from, const ExportOptions& with)
     estimateInstances(*this);
     extensions_used = extensionList(document, "extensionsUsed");
     extensions_required = extensionList(document, "extensionsRequired");
+    if (needsQuantization(scene)) {
+        addName(extensions_used, "KHR_mesh_quantization");
+        addName(extensions_required, "KHR_mesh_quantization");
+    }
     std::erase(extensions_used, kGpuInstancing);
     std::erase(extensions_required, kGpuInstancing);
     head = Fragment(dumpMembers(headOf(document)));

@@ -31,6 +31,7 @@ struct PrimitivePlan {
     std::uint32_t first_stream = 0; // flat number of streams[0]; the indices come after the last
     std::string rest;               // other members, a comma before each
     PrimitiveShape full;            // counts in the unchanged scene
+    bool indexed = true;            // draws nothing without indices
 };
 
 struct MeshPlan {

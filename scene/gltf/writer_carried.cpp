@@ -11,7 +11,10 @@ using nlohmann::json;
 
 namespace {
 
-constexpr const char* kPackedView = "packed";
+// Stands for the number of a packed view until all views are known.
+std::string packedView(CarriedData::Use use) {
+    return "packed " + std::to_string(static_cast<int>(use));
+}
 
 std::uint64_t numberOr(const json& object, const char* key, std::uint64_t fallback) {
     const auto found = object.find(key);
@@ -110,11 +113,12 @@ PackedElements packElements(const SourceDocument& source, const json& accessor) 
     return packed;
 }
 
-std::uint32_t CarriedData::appendPacked(std::span<const std::byte> bytes) {
-    const auto offset = static_cast<std::uint32_t>(packed_.size());
-    packed_.insert(packed_.end(), bytes.begin(), bytes.end());
-    packed_.resize(paddedTo4(packed_.size()));
-    return offset;
+void CarriedData::placePacked(json& place, Use use, std::span<const std::byte> bytes) {
+    std::vector<std::byte>& packed = packed_[static_cast<std::size_t>(use)];
+    place["bufferView"] = packedView(use);
+    place["byteOffset"] = packed.size();
+    packed.insert(packed.end(), bytes.begin(), bytes.end());
+    packed.resize(paddedTo4(packed.size()));
 }
 
 void CarriedData::packSparse(json& accessor) {
@@ -126,13 +130,11 @@ void CarriedData::packSparse(json& accessor) {
         const std::size_t size = is_indices ? componentBytes(numberOr(place, "componentType", 0))
                                             : elementBytes(accessor);
         const auto view = viewBytes(source_, numberOr(place, "bufferView", ~0ULL));
-        const std::uint32_t offset = appendPacked(gather(view, place, size, count, size));
-        place["bufferView"] = kPackedView;
-        place["byteOffset"] = offset;
+        placePacked(place, Use::Sparse, gather(view, place, size, count, size));
     }
 }
 
-std::uint32_t CarriedData::accessor(std::uint32_t source_accessor) {
+std::uint32_t CarriedData::accessor(std::uint32_t source_accessor, Use use) {
     if (const auto known = accessor_numbers_.find(source_accessor);
         known != accessor_numbers_.end())
         return known->second;
@@ -140,11 +142,10 @@ std::uint32_t CarriedData::accessor(std::uint32_t source_accessor) {
     if (list == source_.json.end() || source_accessor >= list->size())
         return kNone;
     json entry = (*list)[source_accessor];
-    if (entry.contains("bufferView")) {
-        const std::uint32_t offset = appendPacked(packElements(source_, entry).bytes);
-        entry["bufferView"] = kPackedView;
-        entry["byteOffset"] = offset;
-    }
+    if (entry.contains("bufferView"))
+        placePacked(entry, use, packElements(source_, entry).bytes);
+    else
+        entry.erase("byteOffset");
     if (entry.contains("sparse") && entry["sparse"].is_object())
         packSparse(entry);
     accessors_.push_back(std::move(entry));
@@ -198,16 +199,22 @@ std::uint32_t CarriedData::addView(std::span<const std::byte> bytes) {
 }
 
 void CarriedData::finish() {
-    const std::uint32_t packed_view = viewCount();
-    if (!packed_.empty())
-        views_.push_back({packed_, 0});
+    std::map<std::string, std::uint32_t> packed_views;
+    for (const Use use : {Use::Skin, Use::Sparse, Use::Other})
+        if (const auto& bytes = packed_[static_cast<std::size_t>(use)]; !bytes.empty()) {
+            packed_views[packedView(use)] = viewCount();
+            views_.push_back({bytes, 0});
+        }
+    const auto resolve = [&](json& place) {
+        if (const auto view = place.find("bufferView"); view != place.end() && view->is_string())
+            *view = packed_views[view->get<std::string>()];
+    };
     json accessors = json::array();
     for (json& accessor : accessors_) {
-        if (accessor.contains("bufferView") && accessor["bufferView"] == kPackedView)
-            accessor["bufferView"] = packed_view;
+        resolve(accessor);
         if (accessor.contains("sparse") && accessor["sparse"].is_object())
             for (const char* part : {"indices", "values"})
-                accessor["sparse"][part]["bufferView"] = packed_view;
+                resolve(accessor["sparse"][part]);
         accessors.push_back(std::move(accessor));
     }
     json views = json::array();

@@ -4,6 +4,7 @@
 // come first in an export, so that their numbers and offsets are the same in every LOD.
 #include "scene/gltf/source_document.h"
 
+#include <array>
 #include <map>
 #include <span>
 
@@ -24,8 +25,11 @@ class CarriedData {
 public:
     explicit CarriedData(const SourceDocument& source) : source_(source) {}
 
+    // Inverse bind matrices share no view with anything else, nor do sparse parts.
+    enum class Use : std::uint8_t { Skin, Sparse, Other };
+
     // Numbers in the export; the same source number gives the same again. kNone: not in the source.
-    std::uint32_t accessor(std::uint32_t source_accessor);
+    std::uint32_t accessor(std::uint32_t source_accessor, Use use = Use::Other);
     // An accessor of a mesh that is passed on whole: a view of its own, strides multiples of 4.
     std::uint32_t meshAccessor(std::uint32_t source_accessor);
     std::uint32_t bufferView(std::uint32_t source_view);
@@ -54,7 +58,8 @@ private:
         std::uint32_t byte_stride = 0; // 0: none
     };
 
-    std::uint32_t appendPacked(std::span<const std::byte> bytes);
+    // Appends to the view of that use and makes `place` refer to it.
+    void placePacked(nlohmann::json& place, Use use, std::span<const std::byte> bytes);
     void packSparse(nlohmann::json& accessor);
 
     const SourceDocument& source_;
@@ -63,7 +68,7 @@ private:
     std::map<const std::byte*, std::uint32_t> added_views_;
     std::vector<nlohmann::json> accessors_;
     std::vector<View> views_;
-    std::vector<std::byte> packed_;               // all small accessors, one view
+    std::array<std::vector<std::byte>, 3> packed_; // [uses] accessors, one view for each use
     std::vector<std::vector<std::byte>> strided_; // accessors of carried meshes
     std::string accessors_json_;
     std::string views_json_;

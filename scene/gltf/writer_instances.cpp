@@ -42,7 +42,8 @@ public:
 
     void planAll() {
         planRows();
-        if (plan_.options.instancing != Instancing::Nodes)
+        if (plan_.options.instancing == Instancing::Auto ||
+            plan_.options.instancing == Instancing::Gpu)
             planFolds();
     }
 

@@ -43,7 +43,7 @@ private:
     }
 
     static bool hasContent(const PrimitivePlan& plan, const PrimitiveShape& shape) {
-        return shape.vertices > 0 && (plan.full.indices == 0 || shape.indices > 0);
+        return shape.vertices > 0 && (!plan.indexed || shape.indices > 0);
     }
 
     void placeMesh(std::uint32_t m) {

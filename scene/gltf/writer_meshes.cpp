@@ -158,6 +158,7 @@ private:
         const Geometry& geometry = *primitive.geometry;
         to.full = {static_cast<std::uint32_t>(geometry.positions.size()),
                    static_cast<std::uint32_t>(geometry.indices.size())};
+        to.indexed = primitive.mode == PrimitiveMode::Triangles || to.full.indices > 0;
         addPositions(to, primitive);
         for (std::uint32_t a = 0; a < geometry.attributes.size(); ++a)
             addAttribute(to, geometry.attributes[a], a, kNone);

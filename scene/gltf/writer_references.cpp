@@ -94,7 +94,9 @@ void forEach(json& document, const char* list, const Visit& visit) {
 void visitReferences(json& document, const ReferenceVisitor& visitor) {
     forEach(document, "animations", [&](json& entry) { visitAnimation(entry, visitor); });
     forEach(document, "skins", [&](json& skin) {
-        visitNumber(skin, "inverseBindMatrices", visitor.accessor);
+        visitNumber(skin,
+                    "inverseBindMatrices",
+                    visitor.skin_accessor ? visitor.skin_accessor : visitor.accessor);
         visitNumber(skin, "skeleton", visitor.node);
         if (const auto joints = skin.find("joints"); joints != skin.end())
             visitNumbers(*joints, visitor.node);

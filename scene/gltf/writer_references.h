@@ -7,10 +7,11 @@
 namespace lodestone {
 
 struct ReferenceVisitor {
-    std::function<void(nlohmann::json&)> node;         // a number
-    std::function<void(nlohmann::json&)> node_pointer; // a string "/nodes/12/..."
-    std::function<void(nlohmann::json&)> accessor;     // a number
-    std::function<void(nlohmann::json&)> buffer_view;  // a number
+    std::function<void(nlohmann::json&)> node;          // a number
+    std::function<void(nlohmann::json&)> node_pointer;  // a string "/nodes/12/..."
+    std::function<void(nlohmann::json&)> accessor;      // a number
+    std::function<void(nlohmann::json&)> skin_accessor; // a number; empty: as accessor
+    std::function<void(nlohmann::json&)> buffer_view;   // a number
 };
 
 constexpr const char* kGpuInstancing = "EXT_mesh_gpu_instancing";

@@ -1,0 +1,286 @@
+#include "scene/expand.h"
+
+#include "scene/expansion.h"
+
+#include <algorithm>
+#include <atomic>
+#include <map>
+#include <tbb/parallel_for.h>
+#include <tuple>
+
+namespace lodestone {
+
+namespace {
+
+// More would not fit into memory in any sensible way.
+constexpr std::uint64_t kMostVertices = std::uint64_t{1} << 28;
+
+bool canMerge(const Submesh& submesh) {
+    return std::ranges::all_of(submesh.primitives, [](const Primitive& primitive) {
+        return primitive.mode == PrimitiveMode::Triangles &&
+               primitive.geometry->morph_targets.empty();
+    });
+}
+
+// Primitives merge if they agree in this.
+using GroupKey = std::pair<std::uint32_t, std::string>;
+
+GroupKey groupKey(const Primitive& primitive) {
+    std::string attributes;
+    for (const Attribute& attribute : primitive.geometry->attributes)
+        attributes += attribute.semantic + ":" + std::to_string(static_cast<int>(attribute.type)) +
+                      ":" + std::to_string(attribute.components) +
+                      (attribute.normalized ? "n;" : ";");
+    return {primitive.material, attributes};
+}
+
+// The same attributes without vertices.
+GeometryPtr emptyLike(const Geometry& geometry) {
+    Geometry empty;
+    for (const Attribute& attribute : geometry.attributes) {
+        empty.attributes.push_back(
+            {attribute.semantic, attribute.type, attribute.components, attribute.normalized, {}});
+    }
+    return std::make_shared<const Geometry>(std::move(empty));
+}
+
+void planInstanceRoles(Expansion& expansion, const Scene& scene) {
+    expansion.merges.assign(scene.instances.size(), false);
+    std::vector<bool> mergeable;
+    for (const Submesh& submesh : scene.submeshes)
+        mergeable.push_back(canMerge(submesh));
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const Instance& instance = scene.instances[i];
+        const Node& node = scene.nodes[instance.node];
+        expansion.merges[i] = mergeable[instance.submesh] && !node.animated && node.skin == kNone;
+    }
+}
+
+// Submeshes that keep an instance, or never had one, stay apart.
+void planSubmeshes(Expansion& expansion, const Scene& scene) {
+    const std::vector<InstanceRange> ranges = instanceRanges(scene);
+    Scene& skeleton = *expansion.skeleton;
+    std::map<GroupKey, std::size_t> group_of;
+    std::vector<Submesh> merged;
+    for (std::uint32_t s = 0; s < scene.submeshes.size(); ++s) {
+        bool any_merges = false;
+        bool all_merge = ranges[s].size() > 0;
+        for (std::uint32_t i = ranges[s].begin; i < ranges[s].end; ++i) {
+            any_merges |= expansion.merges[i];
+            all_merge &= expansion.merges[i];
+        }
+        if (!all_merge) {
+            expansion.apart.push_back(s);
+            skeleton.submeshes.push_back(scene.submeshes[s]);
+        }
+        for (std::uint32_t p = 0; any_merges && p < scene.submeshes[s].primitives.size(); ++p) {
+            const Primitive& primitive = scene.submeshes[s].primitives[p];
+            const auto [found, is_new] =
+                group_of.try_emplace(groupKey(primitive), expansion.groups.size());
+            if (is_new) {
+                expansion.groups.push_back({primitive.material, {}});
+                Submesh submesh;
+                submesh.name = primitive.material == kNone
+                                   ? "no material"
+                                   : scene.materials[primitive.material].name;
+                submesh.primitives.push_back({});
+                submesh.primitives[0].geometry = emptyLike(*primitive.geometry);
+                submesh.primitives[0].material = primitive.material;
+                merged.push_back(std::move(submesh));
+            }
+            expansion.groups[found->second].parts.push_back({s, p});
+        }
+    }
+    expansion.first_merged = static_cast<std::uint32_t>(skeleton.submeshes.size());
+    std::ranges::move(merged, std::back_inserter(skeleton.submeshes));
+}
+
+// Calls visit(instance) for the first `count` instances of a submesh's order.
+template <class Visit>
+void forEachKeptInstance(const InstanceRange& range,
+                         const std::shared_ptr<const std::vector<std::uint32_t>>& order,
+                         std::uint32_t count,
+                         const Visit& visit) {
+    for (std::uint32_t k = 0; k < count; ++k)
+        visit(order ? (*order)[k] : range.begin + k);
+}
+
+// Kept instances of every submesh, split by what becomes of them; in the scene's order.
+struct Kept {
+    std::vector<std::vector<std::uint32_t>> merged; // [original submeshes]
+    std::vector<std::vector<std::uint32_t>> apart;
+};
+
+template <class Submeshes>
+Kept splitKept(const Expansion& expansion, const Scene& scene, const Submeshes& submeshes) {
+    Kept kept;
+    kept.merged.resize(submeshes.size());
+    kept.apart.resize(submeshes.size());
+    const std::vector<InstanceRange> ranges = instanceRanges(scene);
+    for (std::size_t s = 0; s < submeshes.size(); ++s) {
+        forEachKeptInstance(ranges[s],
+                            submeshes[s].instance_order,
+                            submeshes[s].kept_instances,
+                            [&](std::uint32_t i) {
+                                auto& list = expansion.merges[i] ? kept.merged[s] : kept.apart[s];
+                                list.push_back(i);
+                            });
+        std::ranges::sort(kept.merged[s]);
+    }
+    return kept;
+}
+
+// Original instances as the skeleton numbers them.
+std::shared_ptr<const std::vector<std::uint32_t>> renumbered(const Expansion& expansion,
+                                                             std::vector<std::uint32_t> instances) {
+    for (std::uint32_t& instance : instances)
+        instance = expansion.new_index[instance];
+    return std::make_shared<const std::vector<std::uint32_t>>(std::move(instances));
+}
+
+struct Task {
+    std::uint32_t group = 0;
+    ExpandPlace place;
+    const Geometry* from = nullptr;
+    std::uint32_t instance = 0;
+};
+
+struct Work {
+    std::vector<std::shared_ptr<Geometry>> geometries; // [groups] sized, to be filled
+    std::vector<Task> tasks;
+};
+
+Result<Work>
+planWork(const Expansion& expansion, const Scene& scene, const Lod& lod, const Kept& kept) {
+    Work work;
+    for (std::uint32_t g = 0; g < expansion.groups.size(); ++g) {
+        std::uint64_t vertices = 0;
+        std::uint64_t indices = 0;
+        for (const ExpandPart& part : expansion.groups[g].parts) {
+            const Geometry& from = *lod.submeshes[part.submesh].primitives[part.primitive];
+            for (const std::uint32_t instance : kept.merged[part.submesh]) {
+                work.tasks.push_back(
+                    {g,
+                     {static_cast<std::uint32_t>(vertices), static_cast<std::uint32_t>(indices)},
+                     &from,
+                     instance});
+                vertices += from.positions.size();
+                indices += from.indices.size();
+                if (vertices > kMostVertices || indices > 8 * kMostVertices - 1)
+                    return fail(ErrorKind::Failed,
+                                scene.name + ": expanding its instances gives more than " +
+                                    std::to_string(kMostVertices) +
+                                    " vertices; simplify it first or keep the instances");
+            }
+        }
+        const Submesh& submesh = expansion.skeleton->submeshes[expansion.first_merged + g];
+        auto geometry = std::make_shared<Geometry>(*submesh.primitives[0].geometry);
+        geometry->positions.resize(vertices);
+        geometry->indices.resize(indices);
+        for (Attribute& attribute : geometry->attributes)
+            attribute.bytes.resize(vertices * attribute.stride());
+        work.geometries.push_back(std::move(geometry));
+    }
+    return work;
+}
+
+bool runWork(Work& work, const Scene& scene, const JobContext& job) {
+    std::atomic<std::size_t> done{0};
+    tbb::parallel_for(std::size_t{0}, work.tasks.size(), [&](std::size_t t) {
+        if (job.stopRequested())
+            return;
+        const Task& task = work.tasks[t];
+        appendTransformed(*work.geometries[task.group],
+                          task.place,
+                          *task.from,
+                          scene.instances[task.instance].transform);
+        const std::size_t finished = ++done;
+        if (finished % 256 == 0)
+            job.report(static_cast<double>(finished) / static_cast<double>(work.tasks.size()));
+    });
+    return !job.stopRequested();
+}
+
+void countLod(Lod& lod) {
+    for (const LodSubmesh& submesh : lod.submeshes) {
+        std::uint64_t triangles = 0;
+        for (const GeometryPtr& geometry : submesh.primitives)
+            triangles += geometry->triangleCount();
+        lod.unique_triangles += triangles;
+        lod.triangles += triangles * submesh.kept_instances;
+        lod.instances += submesh.kept_instances;
+    }
+}
+
+} // namespace
+
+Expansion planExpansion(const Scene& scene) {
+    Expansion expansion;
+    expansion.skeleton = std::make_shared<Scene>();
+    Scene& skeleton = *expansion.skeleton;
+    skeleton.name = scene.name;
+    skeleton.materials = scene.materials;
+    skeleton.images = scene.images;
+    skeleton.cameras = scene.cameras;
+    skeleton.file_bytes = scene.file_bytes;
+    skeleton.notes = scene.notes;
+    planInstanceRoles(expansion, scene);
+    planSubmeshes(expansion, scene);
+    expandDocument(expansion, scene);
+    return expansion;
+}
+
+LodShape expandShape(const Expansion& expansion, const Scene& scene, const LodShape& shape) {
+    const Kept kept = splitKept(expansion, scene, shape.submeshes);
+    LodShape to;
+    for (const std::uint32_t s : expansion.apart) {
+        LodShape::SubmeshShape submesh = shape.submeshes[s];
+        submesh.kept_instances = static_cast<std::uint32_t>(kept.apart[s].size());
+        submesh.instance_order = renumbered(expansion, kept.apart[s]);
+        to.submeshes.push_back(std::move(submesh));
+    }
+    for (const ExpandGroup& group : expansion.groups) {
+        PrimitiveShape counts;
+        for (const ExpandPart& part : group.parts) {
+            const auto times = static_cast<std::uint32_t>(kept.merged[part.submesh].size());
+            const PrimitiveShape& from = shape.submeshes[part.submesh].primitives[part.primitive];
+            counts.vertices += from.vertices * times;
+            counts.indices += from.indices * times;
+        }
+        to.submeshes.push_back({{counts}, 1, true, nullptr});
+    }
+    return to;
+}
+
+Result<Lod>
+expandLod(const Expansion& expansion, const Scene& scene, const Lod& lod, const JobContext& job) {
+    const Kept kept = splitKept(expansion, scene, lod.submeshes);
+    Result<Work> work = planWork(expansion, scene, lod, kept);
+    if (!work)
+        return tl::unexpected(work.error());
+    if (!runWork(*work, scene, job))
+        return cancelled();
+    Lod to;
+    for (const std::uint32_t s : expansion.apart)
+        to.submeshes.push_back({lod.submeshes[s].primitives,
+                                renumbered(expansion, kept.apart[s]),
+                                static_cast<std::uint32_t>(kept.apart[s].size())});
+    for (std::shared_ptr<Geometry>& geometry : work->geometries)
+        to.submeshes.push_back({{std::move(geometry)}, nullptr, 1});
+    countLod(to);
+    return to;
+}
+
+Result<ScenePtr> expandScene(const Scene& scene, const JobContext& job) {
+    const Expansion expansion = planExpansion(scene);
+    Result<Lod> lod = expandLod(expansion, scene, fullLod(scene), job);
+    if (!lod)
+        return tl::unexpected(lod.error());
+    Scene& expanded = *expansion.skeleton;
+    for (std::size_t s = expansion.first_merged; s < expanded.submeshes.size(); ++s)
+        expanded.submeshes[s].primitives[0].geometry = lod->submeshes[s].primitives[0];
+    job.report(1.0);
+    return expansion.skeleton;
+}
+
+} // namespace lodestone
