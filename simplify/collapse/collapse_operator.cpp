@@ -15,72 +15,66 @@ bool ComponentMesh::folded(std::uint32_t face_a, std::uint32_t face_b) const {
     return product > 0.0f && dot(m, n) < kBackToBack * std::sqrt(product);
 }
 
-bool ComponentMesh::hasFace(std::uint32_t a, std::uint32_t x, std::uint32_t y) const {
-    for (const std::uint32_t f : facesAround(a)) {
-        const Corners& face = faces_[f];
-        const bool has_x = face[0] == x || face[1] == x || face[2] == x;
-        const bool has_y = face[0] == y || face[1] == y || face[2] == y;
-        if (has_x && has_y)
-            return true;
-    }
-    return false;
+// Sorts the faces around both ends of an edge: those with one end, and those that would die.
+void ComponentMesh::gatherRings(std::uint32_t a, std::uint32_t b) {
+    ring_a_.clear();
+    ring_b_.clear();
+    dying_.clear();
+    const auto gather = [&](std::uint32_t v, std::uint32_t other, std::vector<RingFace>& ring) {
+        for (const std::uint32_t f : facesAround(v)) {
+            const Corners& face = faces_[f];
+            const std::size_t k = face[0] == v ? 0 : face[1] == v ? 1 : 2;
+            const std::uint32_t next = face[k == 2 ? 0 : k + 1];
+            const std::uint32_t last = face[k == 0 ? 2 : k - 1];
+            if (next != other && last != other)
+                ring.push_back({f, next, last});
+            else if (v == a)
+                dying_.push_back(f);
+        }
+    };
+    gather(a, b, ring_a_);
+    gather(b, a, ring_b_);
+}
+
+bool ComponentMesh::hasFace(std::span<const RingFace> ring,
+                            std::uint32_t x,
+                            std::uint32_t y) const {
+    return std::ranges::any_of(ring, [&](const RingFace& face) {
+        return (face.next == x && face.last == y) || (face.next == y && face.last == x);
+    });
 }
 
 // The link condition (Dey et al. 1999): neighbours that both ends share must span a face with the
 // edge, no two faces may fall onto each other, and two border vertices merge only along the border.
 bool ComponentMesh::keepsTopology(std::uint32_t a, std::uint32_t b) {
+    if (metrics_[a].boundary && metrics_[b].boundary && dying_.size() > 1 &&
+        !(dying_.size() == 2 && folded(dying_[0], dying_[1])))
+        return false;
     const std::uint32_t near_a = nextStamp();
     const std::uint32_t opposite = nextStamp();
-    std::uint32_t edge_faces = 0;
-    std::array<std::uint32_t, 2> on_edge{kNone, kNone};
-    for (const std::uint32_t f : facesAround(a)) {
-        const Corners& face = faces_[f];
-        const bool dies = face[0] == b || face[1] == b || face[2] == b;
-        if (dies && edge_faces < 2)
-            on_edge[edge_faces] = f;
-        edge_faces += dies;
-        for (const std::uint32_t v : face)
-            if (dies)
-                mark_[v] = opposite;
-            else if (mark_[v] != opposite)
-                mark_[v] = near_a;
-    }
-    if (vertices_[a].boundary && vertices_[b].boundary && edge_faces > 1 &&
-        !(edge_faces == 2 && folded(on_edge[0], on_edge[1])))
-        return false;
-    for (const std::uint32_t f : facesAround(b)) {
-        const Corners& face = faces_[f];
-        if (face[0] == a || face[1] == a || face[2] == a)
-            continue;
-        std::array<std::uint32_t, 2> others;
-        std::size_t found = 0;
-        for (const std::uint32_t v : face)
-            if (v != b)
-                others[found++] = v;
-        for (const std::uint32_t v : others)
-            if (mark_[v] == near_a)
-                return false;
-        if (mark_[others[0]] == opposite && mark_[others[1]] == opposite &&
-            hasFace(a, others[0], others[1]))
+    for (const RingFace& face : ring_a_)
+        points_[face.next].mark = points_[face.last].mark = near_a;
+    for (const std::uint32_t f : dying_)
+        for (const std::uint32_t v : faces_[f])
+            points_[v].mark = opposite;
+    for (const RingFace& face : ring_b_) {
+        const std::uint32_t next = points_[face.next].mark;
+        const std::uint32_t last = points_[face.last].mark;
+        if (next == near_a || last == near_a)
+            return false;
+        if (next == opposite && last == opposite && hasFace(ring_a_, face.next, face.last))
             return false;
     }
     return true;
 }
 
-bool ComponentMesh::facesStayUpright(std::uint32_t moved,
-                                     std::uint32_t other,
-                                     Float3 target) const {
-    const Float3 origin = vertices_[moved].position;
-    for (const std::uint32_t f : facesAround(moved)) {
-        const Corners& face = faces_[f];
-        if (face[0] == other || face[1] == other || face[2] == other)
-            continue;
-        const std::size_t k = face[0] == moved ? 0 : face[1] == moved ? 1 : 2;
-        const Float3 u = vertices_[face[(k + 1) % 3]].position;
-        const Float3 v = vertices_[face[(k + 2) % 3]].position;
-        const Float3 side = v - u;
-        const Float3 before = cross(u - origin, side);
-        const Float3 after = cross(u - target, side);
+// Whether no face of a ring turns by more than the flip angle when its vertex moves.
+bool ComponentMesh::staysUpright(std::span<const RingFace> ring, Float3 from, Float3 to) const {
+    for (const RingFace& face : ring) {
+        const Float3 u = points_[face.next].position;
+        const Float3 side = points_[face.last].position - u;
+        const Float3 before = cross(u - from, side);
+        const Float3 after = cross(u - to, side);
         const float before2 = dot(before, before);
         if (!(before2 > 0.0f))
             continue;
@@ -95,51 +89,52 @@ bool ComponentMesh::facesStayUpright(std::uint32_t moved,
     return true;
 }
 
-bool ComponentMesh::keepsOrientation(std::uint32_t a, std::uint32_t b, Float3 target) const {
-    return facesStayUpright(a, b, target) && facesStayUpright(b, a, target);
-}
-
 bool ComponentMesh::tryCollapse(std::uint32_t a,
                                 std::uint32_t b,
                                 const Placement& placement,
                                 Strictness strictness) {
-    Vertex& kept = vertices_[a];
-    Vertex& gone = vertices_[b];
-    const Float3 half = (gone.position - kept.position) * 0.5f;
-    const Float3 target = kept.position + half + placement.at;
-    if (strictness != Strictness::Anything && !keepsOrientation(a, b, target))
+    const Float3 from_a = points_[a].position;
+    const Float3 from_b = points_[b].position;
+    const Float3 half = (from_b - from_a) * 0.5f;
+    const Float3 target = from_a + half + placement.at;
+    gatherRings(a, b);
+    if (strictness != Strictness::Anything &&
+        !(staysUpright(ring_a_, from_a, target) && staysUpright(ring_b_, from_b, target)))
         return false;
     if (strictness == Strictness::Manifold && !keepsTopology(a, b))
         return false;
 
-    const Quadric merged = sum(translated(kept.quadric, target - kept.position),
-                               translated(gone.quadric, target - gone.position));
+    const Quadric merged = sum(translated(metrics_[a].quadric, target - from_a),
+                               translated(metrics_[b].quadric, target - from_b));
     log_.cost.push_back(placement.cost);
     log_.error2.push_back(merged.weight > 0.0f ? placement.cost / merged.weight : 0.0f);
-    const float length2 = dot(half, half);
-    const float t = length2 > 0.0f
-                        ? std::clamp(0.5f + 0.5f * dot(placement.at, half) / length2, 0.0f, 1.0f)
-                        : 0.5f;
-    kept.quadric = merged;
-    kept.position = target;
-    kept.boundary |= gone.boundary;
-    ++kept.version;
-    ++gone.version;
+    metrics_[a].quadric = merged;
+    metrics_[a].boundary |= metrics_[b].boundary;
+    points_[a].position = target;
+    ++rings_[a].version;
+    ++rings_[b].version;
     mergeFaces(a, b);
     if (face_wedges_.empty()) {
-        killWedge(b, a);
-        if (alive(a))
-            addVersion(a, target);
-        else
-            killWedge(a, kNone);
-        for (const auto& [face, unused] : merged_wedges_) // faces that died: their third corner
-            for (const std::uint32_t v : faces_[face])
-                if (v != a && v != b && !alive(v) && log_.wedge_death[v] == kNone)
-                    killWedge(v, kNone);
-    } else {
-        mergeWedges(a, b, t);
+        mergeTrivialWedges(a, b);
+        return true;
     }
+    const float length2 = dot(half, half);
+    const float along = length2 > 0.0f ? dot(placement.at, half) / length2 : 0.0f;
+    mergeWedges(a, b, std::clamp(0.5f + 0.5f * along, 0.0f, 1.0f));
     return true;
+}
+
+// Every vertex is its own wedge.
+void ComponentMesh::mergeTrivialWedges(std::uint32_t a, std::uint32_t b) {
+    killWedge(b, a);
+    if (alive(a))
+        addVersion(a, points_[a].position);
+    else
+        killWedge(a, kNone);
+    for (const std::uint32_t f : dying_)
+        for (const std::uint32_t v : faces_[f])
+            if (!alive(v) && log_.wedge_death[v] == kNone)
+                killWedge(v, kNone);
 }
 
 void ComponentMesh::dropReference(std::uint32_t v, std::uint32_t face) {
@@ -156,40 +151,31 @@ void ComponentMesh::killFace(std::uint32_t face) {
     --live_faces_;
 }
 
-// Faces on the edge die, b's others become a's. Fills merged_wedges_ with {dead face, 0} when
-// wedges are trivial; mergeWedges() fills it anew otherwise.
+// Faces on the edge die, b's others become a's.
 void ComponentMesh::mergeFaces(std::uint32_t a, std::uint32_t b) {
-    merged_wedges_.clear();
-    scratch_.clear();
-    for (const std::uint32_t f : facesAround(a)) {
-        const Corners& face = faces_[f];
-        if (face[0] == b || face[1] == b || face[2] == b) {
-            killFace(f);
-            merged_wedges_.push_back({f, 0});
-            for (const std::uint32_t v : face)
-                if (v != a && v != b)
-                    dropReference(v, f);
-        } else {
-            scratch_.push_back(f);
-        }
+    for (const std::uint32_t f : dying_) {
+        killFace(f);
+        for (const std::uint32_t v : faces_[f])
+            if (v != a && v != b)
+                dropReference(v, f);
     }
-    for (const std::uint32_t f : facesAround(b)) {
-        if (log_.face_death[f] != kNone)
-            continue;
-        Corners& face = faces_[f];
-        face[face[0] == b ? 0 : face[1] == b ? 1 : 2] = a;
-        scratch_.push_back(f);
-    }
-    const auto count = static_cast<std::uint32_t>(scratch_.size());
     Ring& kept = rings_[a];
+    const auto count = static_cast<std::uint32_t>(ring_a_.size() + ring_b_.size());
     if (count > kept.capacity) {
         kept.begin = static_cast<std::uint32_t>(refs_.size());
         kept.capacity = count;
         refs_.resize(refs_.size() + count);
     }
-    std::ranges::copy(scratch_, refs_.begin() + kept.begin);
     kept.count = count;
     rings_[b].count = 0;
+    auto to = refs_.begin() + kept.begin;
+    for (const RingFace& face : ring_a_)
+        *to++ = face.face;
+    for (const RingFace& face : ring_b_) {
+        Corners& corners = faces_[face.face];
+        corners[corners[0] == b ? 0 : corners[1] == b ? 1 : 2] = a;
+        *to++ = face.face;
+    }
 }
 
 void ComponentMesh::killWedge(std::uint32_t wedge, std::uint32_t parent) {
@@ -230,27 +216,24 @@ void ComponentMesh::blendValues(std::uint32_t into, std::uint32_t from, float t)
 // Wedges that meet in a face on the edge become one; the others of b move to a as they are, so that
 // seams stay seams and no crack opens.
 void ComponentMesh::mergeWedges(std::uint32_t a, std::uint32_t b, float t) {
-    std::array<std::uint32_t, 3> third{};
     std::vector<std::uint32_t>& touched = scratch_;
     touched.clear();
-    const std::size_t dead_faces = merged_wedges_.size();
-    for (std::size_t i = 0; i < dead_faces; ++i) {
-        const std::uint32_t f = merged_wedges_[i][0];
+    merged_wedges_.clear();
+    for (const std::uint32_t f : dying_) {
         std::uint32_t wedge_a = kNone;
         std::uint32_t wedge_b = kNone;
         for (std::size_t k = 0; k < 3; ++k) {
-            third[k] = face_wedges_[f][k];
-            --wedge_refs_[third[k]];
-            touched.push_back(third[k]);
+            const std::uint32_t wedge = face_wedges_[f][k];
+            --wedge_refs_[wedge];
+            touched.push_back(wedge);
             if (faces_[f][k] == a)
-                wedge_a = third[k];
+                wedge_a = wedge;
             else if (faces_[f][k] == b)
-                wedge_b = third[k];
+                wedge_b = wedge;
         }
-        merged_wedges_[i] = {wedge_b, wedge_a};
+        merged_wedges_.push_back({wedge_b, wedge_a});
     }
-    for (std::size_t i = 0; i < dead_faces; ++i) {
-        const auto [from, into] = merged_wedges_[i];
+    for (const auto& [from, into] : merged_wedges_) {
         if (log_.wedge_death[from] != kNone) // merged through the other face on the edge already
             continue;
         blendValues(into, from, t);
@@ -269,7 +252,7 @@ void ComponentMesh::mergeWedges(std::uint32_t a, std::uint32_t b, float t) {
         touched.push_back(wedge);
     }
     std::ranges::sort(touched);
-    touched.erase(std::ranges::unique(touched).begin(), touched.end());
+    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
     for (const std::uint32_t wedge : touched)
         releaseWedge(wedge);
     for (const std::uint32_t f : facesAround(a)) {
@@ -286,7 +269,7 @@ void ComponentMesh::mergeWedges(std::uint32_t a, std::uint32_t b, float t) {
             return false;
         }();
         if (!seen)
-            addVersion(wedge, vertices_[a].position);
+            addVersion(wedge, points_[a].position);
     }
 }
 

@@ -31,7 +31,6 @@ void ComponentMesh::load(std::size_t component) {
 void ComponentMesh::buildVertices(std::size_t component) {
     const std::uint32_t begin = complex_.component_begin[component];
     const std::uint32_t end = complex_.component_begin[component + 1];
-    vertices_.clear();
     faces_.resize(end - begin);
     face_wedges_.resize(end - begin);
     log_.faces.assign(complex_.component_faces.begin() + begin,
@@ -58,10 +57,11 @@ void ComponentMesh::buildVertices(std::size_t component) {
         bounds.add(glm::dvec3(complex_.positions[id]));
     origin_ = bounds.center();
     scale_ = bounds.diagonal() > 0.0 ? bounds.diagonal() : 1.0;
-    vertices_.resize(ids.size());
+    points_.assign(ids.size(), {});
+    metrics_.assign(ids.size(), {});
     for (std::size_t v = 0; v < ids.size(); ++v) {
         const glm::dvec3 p = (glm::dvec3(complex_.positions[ids[v]]) - origin_) / scale_;
-        vertices_[v].position = {
+        points_[v].position = {
             static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
         local_of_vertex_[ids[v]] = kNone;
     }
@@ -72,7 +72,7 @@ void ComponentMesh::buildVertices(std::size_t component) {
 void ComponentMesh::buildReferences() {
     live_faces_ = static_cast<std::uint32_t>(faces_.size());
     log_.face_death.assign(faces_.size(), kNone);
-    rings_.assign(vertices_.size(), {});
+    rings_.assign(points_.size(), {});
     for (const Corners& face : faces_)
         for (const std::uint32_t v : face)
             ++rings_[v].capacity;
@@ -85,15 +85,13 @@ void ComponentMesh::buildReferences() {
     for (std::uint32_t f = 0; f < faces_.size(); ++f)
         for (const std::uint32_t v : faces_[f])
             refs_[rings_[v].begin + rings_[v].count++] = f;
-    mark_.assign(vertices_.size(), 0);
-    mark_face_.resize(vertices_.size());
+    mark_face_.resize(points_.size());
     stamp_ = 0;
 
     const std::size_t wedges = log_.wedges.size();
     log_.wedge_death.assign(wedges, kNone);
     log_.wedge_parent.assign(wedges, kNone);
-    const bool trivial =
-        wedges == vertices_.size() && attributes_.size == 0 && !attributes_.carries;
+    const bool trivial = wedges == points_.size() && attributes_.size == 0 && !attributes_.carries;
     wedge_refs_.clear();
     if (trivial) { // then wedge and vertex ids are equal: both were numbered by first use
         face_wedges_.clear();
@@ -120,15 +118,15 @@ void ComponentMesh::buildReferences() {
 }
 
 Float3 ComponentMesh::faceNormal(const Corners& face) const {
-    const Float3 a = vertices_[face[0]].position;
-    return cross(vertices_[face[1]].position - a, vertices_[face[2]].position - a);
+    const Float3 a = points_[face[0]].position;
+    return cross(points_[face[1]].position - a, points_[face[2]].position - a);
 }
 
 void ComponentMesh::buildQuadrics() {
     normals_.resize(faces_.size());
     for (std::uint32_t f = 0; f < faces_.size(); ++f)
         addFaceQuadric(f);
-    for (std::uint32_t v = 0; v < vertices_.size(); ++v)
+    for (std::uint32_t v = 0; v < points_.size(); ++v)
         addBoundaryQuadrics(v);
 }
 
@@ -146,7 +144,7 @@ void ComponentMesh::addFaceQuadric(std::uint32_t face) {
     addPlane(quadric, unit, 0.0f, weight); // a face passes through its corners: offset 0
     quadric.weight = weight;
     for (const std::uint32_t v : faces_[face])
-        vertices_[v].quadric = sum(vertices_[v].quadric, quadric);
+        metrics_[v].quadric = sum(metrics_[v].quadric, quadric);
 }
 
 // Borders: edges with one face, or with two that lie back to back.
@@ -157,25 +155,25 @@ void ComponentMesh::addBoundaryQuadrics(std::uint32_t a) {
         for (const std::uint32_t b : faces_[face]) {
             if (b <= a) // each edge once
                 continue;
-            if (mark_[b] < border) {
-                mark_[b] = border;
+            if (points_[b].mark < border) {
+                points_[b].mark = border;
                 mark_face_[b] = face;
-            } else if (mark_[b] == inner ||
+            } else if (points_[b].mark == inner ||
                        !(dot(normals_[mark_face_[b]], normals_[face]) < kBackToBack)) {
-                mark_[b] = inner;
+                points_[b].mark = inner;
             }
         }
     for (const std::uint32_t face : facesAround(a))
         for (const std::uint32_t b : faces_[face])
-            if (b > a && mark_[b] == border) {
+            if (b > a && points_[b].mark == border) {
                 addBoundaryQuadric(a, b, mark_face_[b]);
-                vertices_[a].boundary = vertices_[b].boundary = true;
-                mark_[b] = inner; // once
+                metrics_[a].boundary = metrics_[b].boundary = true;
+                points_[b].mark = inner; // once
             }
 }
 
 void ComponentMesh::addBoundaryQuadric(std::uint32_t a, std::uint32_t b, std::uint32_t face) {
-    const Float3 edge = vertices_[b].position - vertices_[a].position;
+    const Float3 edge = points_[b].position - points_[a].position;
     const Float3 normal = normals_[face];
     const float length2 = dot(edge, edge);
     if (!(dot(normal, normal) > 0.0f) || !(length2 > 0.0f))
@@ -185,8 +183,8 @@ void ComponentMesh::addBoundaryQuadric(std::uint32_t a, std::uint32_t b, std::ui
         if (options_.boundary_by_length)
             weight /= scale_;
         const auto w = static_cast<float>(weight * options_.boundary_weight);
-        addPlane(vertices_[a].quadric, unit, 0.0f, w);
-        addPlane(vertices_[b].quadric, unit, 0.0f, w);
+        addPlane(metrics_[a].quadric, unit, 0.0f, w);
+        addPlane(metrics_[b].quadric, unit, 0.0f, w);
     };
     if (weights_.uniform() && !options_.boundary_by_length) {
         const Float3 across = cross(edge, normal);

@@ -63,22 +63,6 @@ enum class Strictness : std::uint8_t {
 
 class ComponentMesh {
 public:
-    // What costing an edge reads: one cache line.
-    struct alignas(64) Vertex {
-        Float3 position; // relative to origin, over scale
-        Quadric quadric;
-        std::uint32_t version = 0; // rises with every change
-        bool boundary = false;
-        bool locked = false;
-    };
-
-    // Live faces around a vertex: a range of refs_.
-    struct Ring {
-        std::uint32_t begin = 0;
-        std::uint32_t count = 0;
-        std::uint32_t capacity = 0;
-    };
-
     ComponentMesh(const Complex& complex,
                   const InstanceWeights& weights,
                   const WedgeAttributes& attributes,
@@ -87,22 +71,22 @@ public:
     // Loads a component; keeps the memory of the last one.
     void load(std::size_t component);
 
-    std::size_t vertexCount() const { return vertices_.size(); }
+    std::size_t vertexCount() const { return points_.size(); }
 
     std::uint32_t liveFaces() const { return live_faces_; }
 
-    const Vertex& vertex(std::uint32_t v) const { return vertices_[v]; }
-
     bool alive(std::uint32_t v) const { return rings_[v].count > 0; }
 
+    std::uint32_t version(std::uint32_t v) const { return rings_[v].version; } // rises with changes
+
     bool movable(std::uint32_t a, std::uint32_t b) const {
-        return !vertices_[a].locked && !vertices_[b].locked;
+        return !metrics_[a].locked && !metrics_[b].locked;
     }
 
     Placement place(std::uint32_t a, std::uint32_t b) const {
-        return placeEdge(vertices_[a].quadric,
-                         vertices_[b].quadric,
-                         (vertices_[b].position - vertices_[a].position) * 0.5f);
+        return placeEdge(metrics_[a].quadric,
+                         metrics_[b].quadric,
+                         (points_[b].position - points_[a].position) * 0.5f);
     }
 
     // Calls visit(neighbour) once for each vertex that shares a live face with v.
@@ -121,6 +105,32 @@ public:
 private:
     using Corners = std::array<std::uint32_t, 3>;
 
+    // Vertices by what is read together: checks look at many points, costing at few metrics.
+    struct Point {
+        Float3 position;        // relative to origin, over scale
+        std::uint32_t mark = 0; // a stamp
+    };
+
+    struct Metric {
+        Quadric quadric;
+        bool boundary = false;
+        bool locked = false;
+    };
+
+    struct Ring { // live faces around a vertex: a range of refs_
+        std::uint32_t begin = 0;
+        std::uint32_t count = 0;
+        std::uint32_t capacity = 0;
+        std::uint32_t version = 0;
+    };
+
+    // A face around a vertex, seen from it.
+    struct RingFace {
+        std::uint32_t face = 0;
+        std::uint32_t next = 0; // the corner after the vertex
+        std::uint32_t last = 0; // the corner before it
+    };
+
     void buildVertices(std::size_t component);
     void buildReferences();
     void buildQuadrics();
@@ -134,14 +144,15 @@ private:
     static constexpr float kBackToBack = -0.98f;
 
     bool folded(std::uint32_t face_a, std::uint32_t face_b) const;
+    void gatherRings(std::uint32_t a, std::uint32_t b);
     bool keepsTopology(std::uint32_t a, std::uint32_t b);
-    bool keepsOrientation(std::uint32_t a, std::uint32_t b, Float3 target) const;
-    bool facesStayUpright(std::uint32_t moved, std::uint32_t other, Float3 target) const;
-    bool hasFace(std::uint32_t a, std::uint32_t x, std::uint32_t y) const;
+    bool staysUpright(std::span<const RingFace> ring, Float3 from, Float3 to) const;
+    bool hasFace(std::span<const RingFace> ring, std::uint32_t x, std::uint32_t y) const;
 
     void mergeFaces(std::uint32_t a, std::uint32_t b);
     void killFace(std::uint32_t face);
     void dropReference(std::uint32_t v, std::uint32_t face);
+    void mergeTrivialWedges(std::uint32_t a, std::uint32_t b);
     void mergeWedges(std::uint32_t a, std::uint32_t b, float t);
     void killWedge(std::uint32_t wedge, std::uint32_t parent);
     void releaseWedge(std::uint32_t wedge);
@@ -165,8 +176,9 @@ private:
 
     glm::dvec3 origin_{0.0};
     double scale_ = 1.0;
-    std::vector<Vertex> vertices_;
-    std::vector<Ring> rings_;               // [vertices]
+    std::vector<Point> points_;   // [vertices]
+    std::vector<Metric> metrics_; // [vertices]
+    std::vector<Ring> rings_;     // [vertices]
     std::vector<Corners> faces_;            // [faces] local vertices; dead: face_death set
     std::vector<Corners> face_wedges_;      // [faces] local wedges; empty while wedges are trivial
     std::vector<std::uint32_t> refs_;       // faces of each vertex
@@ -177,11 +189,14 @@ private:
     std::uint32_t live_faces_ = 0;
 
     std::vector<Float3> normals_;          // [faces] unit, at the start; 0 where degenerate
-    std::vector<std::uint32_t> mark_;      // [vertices] stamp
     std::vector<std::uint32_t> mark_face_; // [vertices] a face on the marked edge
     std::uint32_t stamp_ = 0;
     std::vector<std::uint32_t> local_of_vertex_; // [complex vertices], kNone outside load
     std::vector<std::uint32_t> local_of_wedge_;  // [complex wedges]
+    // The collapse at hand.
+    std::vector<RingFace> ring_a_;                            // faces around a without b
+    std::vector<RingFace> ring_b_;                            // faces around b without a
+    std::vector<std::uint32_t> dying_;                        // faces with both
     std::vector<std::array<std::uint32_t, 2>> merged_wedges_; // {b's, a's} of the current collapse
     std::vector<std::uint32_t> scratch_;
     CollapseLog log_;
@@ -190,11 +205,11 @@ private:
 template <class Visit>
 void ComponentMesh::forNeighbours(std::uint32_t v, Visit visit) {
     const std::uint32_t stamp = nextStamp();
-    mark_[v] = stamp;
+    points_[v].mark = stamp;
     for (const std::uint32_t face : facesAround(v))
         for (const std::uint32_t other : faces_[face])
-            if (mark_[other] != stamp) {
-                mark_[other] = stamp;
+            if (points_[other].mark != stamp) {
+                points_[other].mark = stamp;
                 visit(other);
             }
 }

@@ -58,7 +58,7 @@ public:
 
 private:
     std::uint32_t stampOf(std::uint32_t a, std::uint32_t b) const {
-        return mesh_.vertex(a).version + mesh_.vertex(b).version;
+        return mesh_.version(a) + mesh_.version(b);
     }
 
     Candidate candidate(std::uint32_t a, std::uint32_t b) const {
