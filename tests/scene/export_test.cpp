@@ -1,0 +1,147 @@
+#include "scene/expand.h"
+#include "scene/export.h"
+#include "scene/import.h"
+#include "tests/scene/scene_fixtures.h"
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+
+namespace lodestone {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ExportTest : public ::testing::Test {
+protected:
+    void SetUp() override {
+        const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+        folder_ = fs::temp_directory_path() / (std::string("lodestone_export_") + test->name());
+        fs::remove_all(folder_);
+        fs::create_directories(folder_);
+    }
+
+    void TearDown() override { fs::remove_all(folder_); }
+
+    std::uint64_t folderBytes() const {
+        std::uint64_t bytes = 0;
+        for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder_))
+            bytes += entry.is_regular_file() ? entry.file_size() : 0;
+        return bytes;
+    }
+
+    fs::path folder_;
+};
+
+std::vector<ScenePtr> everyFixture() {
+    return {fixtures::triangleScene(),
+            fixtures::twoMaterialCubeScene(),
+            fixtures::awkwardInstancesScene(),
+            fixtures::texturedQuadScene(),
+            fixtures::cubeRowScene(50),
+            fixtures::gridScene(20)};
+}
+
+constexpr std::array kEveryInstancing{
+    Instancing::Auto, Instancing::Nodes, Instancing::Gpu, Instancing::Expand};
+
+TEST_F(ExportTest, EveryFixtureComesBackWithItsTrianglesAndBounds) {
+    for (const ScenePtr& scene : everyFixture())
+        for (const Instancing instancing : kEveryInstancing)
+            for (const char* name : {"scene.glb", "scene.gltf"}) {
+                const fs::path path = folder_ / name;
+                const auto report = exportScene(*scene, fullLod(*scene), path, {instancing});
+                ASSERT_TRUE(report) << report.error().message;
+                const auto again = importScene(path, {});
+                ASSERT_TRUE(again) << again.error().message;
+                EXPECT_EQ(countScene(**again).triangles, countScene(*scene).triangles);
+                const Bounds before = worldBounds(*scene);
+                const Bounds after = worldBounds(**again);
+                EXPECT_LE(glm::length(before.min - after.min), 1e-5 * before.diagonal());
+                EXPECT_LE(glm::length(before.max - after.max), 1e-5 * before.diagonal());
+            }
+}
+
+TEST_F(ExportTest, GpuRowsAreUsedWhereTheyAreSmaller) {
+    const ScenePtr many = fixtures::cubeRowScene(50);
+    const ScenePtr one = fixtures::cubeScene();
+    const auto of_many = exportScene(*many, fullLod(*many), folder_ / "many.glb", {});
+    const auto of_one = exportScene(*one, fullLod(*one), folder_ / "one.glb", {});
+    ASSERT_TRUE(of_many && of_one);
+    EXPECT_EQ(of_many->submeshes_as_gpu_instances, 1U);
+    EXPECT_EQ(of_one->submeshes_as_gpu_instances, 0U);
+    ASSERT_EQ(of_many->notes.size(), 1U);
+    EXPECT_NE(of_many->notes[0].find("50"), std::string::npos) << "names dropped are counted";
+}
+
+TEST_F(ExportTest, RemovedInstancesAreGone) {
+    const ScenePtr scene = fixtures::cubeRowScene(20);
+    Lod lod = fullLod(*scene);
+    lod.submeshes[0].instance_order =
+        std::make_shared<const std::vector<std::uint32_t>>(std::vector<std::uint32_t>{
+            7, 3, 12, 0, 1, 2, 4, 5, 6, 8, 9, 10, 11, 13, 14, 15, 16, 17, 18, 19});
+    lod.submeshes[0].kept_instances = 3;
+    for (const Instancing instancing : kEveryInstancing) {
+        ASSERT_TRUE(exportScene(*scene, lod, folder_ / "few.glb", {instancing}));
+        const auto again = importScene(folder_ / "few.glb", {});
+        ASSERT_TRUE(again) << again.error().message;
+        EXPECT_EQ(countScene(**again).triangles, 3U * 12U);
+        const Bounds bounds = worldBounds(**again);
+        EXPECT_NEAR(bounds.min.x, 2.0 * 3 - 0.5, 1e-5);
+        EXPECT_NEAR(bounds.max.x, 2.0 * 12 + 0.5, 1e-5);
+    }
+}
+
+TEST_F(ExportTest, ImageBytesAreUntouched) {
+    const ScenePtr scene = fixtures::texturedQuadScene();
+    for (const char* name : {"quad.glb", "quad.gltf"}) {
+        ASSERT_TRUE(exportScene(*scene, fullLod(*scene), folder_ / name, {}));
+        const auto again = importScene(folder_ / name, {});
+        ASSERT_TRUE(again) << again.error().message;
+        ASSERT_EQ((*again)->images.size(), 1U);
+        EXPECT_EQ(*(*again)->images[0].bytes, *scene->images[0].bytes);
+        EXPECT_EQ((*again)->materials[0].name, "textured");
+    }
+}
+
+TEST_F(ExportTest, SameInputGivesTheSameBytes) {
+    const ScenePtr scene = fixtures::awkwardInstancesScene();
+    const auto read = [&](const char* name) {
+        EXPECT_TRUE(exportScene(*scene, fullLod(*scene), folder_ / name, {}));
+        std::ifstream file(folder_ / name, std::ios::binary);
+        return std::string(std::istreambuf_iterator<char>(file), {});
+    };
+    EXPECT_EQ(read("a.glb"), read("b.glb"));
+}
+
+TEST_F(ExportTest, AFailureNamesTheFileAndLeavesNothingBehind) {
+    const ScenePtr scene = fixtures::cubeScene();
+    const auto missing = exportScene(*scene, fullLod(*scene), folder_ / "nowhere" / "cube.glb", {});
+    ASSERT_FALSE(missing);
+    EXPECT_EQ(missing.error().kind, ErrorKind::Failed);
+    EXPECT_NE(missing.error().message.find("nowhere"), std::string::npos);
+    fs::create_directory(folder_ / "taken.glb");
+    EXPECT_FALSE(exportScene(*scene, fullLod(*scene), folder_ / "taken.glb", {}));
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1) << "no temporary file is left";
+}
+
+TEST_F(ExportTest, AnOldFileSurvivesALodThatCannotBeWritten) {
+    const ScenePtr scene = fixtures::cubeScene();
+    const fs::path path = folder_ / "cube.glb";
+    ASSERT_TRUE(exportScene(*scene, fullLod(*scene), path, {}));
+    const std::uint64_t before = folderBytes();
+    Lod broken = fullLod(*scene);
+    Geometry geometry = *broken.submeshes[0].primitives[0];
+    geometry.positions[0].x = std::nanf("");
+    broken.submeshes[0].primitives[0] = std::make_shared<const Geometry>(geometry);
+    const auto report = exportScene(*scene, broken, path, {});
+    ASSERT_FALSE(report);
+    EXPECT_NE(report.error().message.find("not finite"), std::string::npos);
+    EXPECT_EQ(folderBytes(), before);
+    EXPECT_TRUE(importScene(path, {}));
+}
+
+} // namespace
+} // namespace lodestone
