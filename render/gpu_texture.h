@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -16,7 +17,9 @@ struct TextureWish {
     std::uint32_t image = kNone;
     ColorSpace color_space = ColorSpace::Srgb;
 
-    auto operator<=>(const TextureWish&) const = default;
+    bool operator<(const TextureWish& other) const {
+        return std::tie(image, color_space) < std::tie(other.image, other.color_space);
+    }
 };
 
 struct GpuTexture {

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <map>
+#include <tuple>
 #include <unordered_map>
 
 namespace lodestone {
@@ -52,7 +53,10 @@ struct SamplerKey {
     TextureWrap wrap_v = TextureWrap::Repeat;
     bool nearest = false;
 
-    auto operator<=>(const SamplerKey&) const = default;
+    bool operator<(const SamplerKey& other) const {
+        return std::tie(wrap_u, wrap_v, nearest) <
+               std::tie(other.wrap_u, other.wrap_v, other.nearest);
+    }
 };
 
 // Uniform blocks: binding points.
