@@ -65,8 +65,7 @@ private:
                 if (u != v)
                     ring.push_back(u);
         std::ranges::sort(ring);
-        const auto rest = std::ranges::unique(ring);
-        ring.erase(rest.begin(), rest.end());
+        ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
         return ring;
     }
 
