@@ -38,7 +38,8 @@ Result<ScenePtr> importBytes(const std::string& name, const std::string& bytes) 
 // Without a file on the disk.
 Result<ScenePtr> importFromMemory(const std::string& bytes) {
     std::vector<std::byte> copy(bytes.size());
-    std::memcpy(copy.data(), bytes.data(), bytes.size());
+    if (!bytes.empty())
+        std::memcpy(copy.data(), bytes.data(), bytes.size());
     return readGltfBytes(copy, "memory.glb", {});
 }
 
