@@ -89,6 +89,20 @@ public:
                          (points_[b].position - points_[a].position) * 0.5f);
     }
 
+    // Hints that a vertex will be looked at soon: first its ring's place, later the ring itself.
+    void prefetchRing(std::uint32_t v) const {
+        __builtin_prefetch(&rings_[v]);
+        __builtin_prefetch(&points_[v]);
+        __builtin_prefetch(&metrics_[v]);
+    }
+    void prefetchReferences(std::uint32_t v) const {
+        __builtin_prefetch(refs_.data() + rings_[v].begin);
+    }
+    void prefetchFaces(std::uint32_t v) const {
+        for (const std::uint32_t face : facesAround(v))
+            __builtin_prefetch(&faces_[face]);
+    }
+
     // Calls visit(neighbour) once for each vertex that shares a live face with v.
     template <class Visit>
     void forNeighbours(std::uint32_t v, Visit visit);

@@ -1,27 +1,28 @@
 #include "simplify/collapse/component_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 namespace lodestone {
 
 namespace {
 
+// Costs in bands an eighth of an octave wide: the exponent and three bits of the mantissa. Inside a
+// band, edges keep the order they are stored in, which is roughly the mesh's: edges that cost
+// nearly the same are taken where memory is warm (a third faster on a million faces, same error).
+constexpr int kBandShift = 20;
+constexpr std::size_t kBands = std::size_t{1} << (32 - kBandShift);
+
+std::size_t bandOf(float cost) {
+    return std::bit_cast<std::uint32_t>(cost) >> kBandShift;
+}
+
 struct Edge {
-    std::uint32_t key = 0; // bits of the cost: costs are not negative, so they order alike
+    float cost = 0.0f; // >= 0
     std::uint32_t a = 0;
     std::uint32_t b = 0;
 };
-
-// By cost in bands an eighth of an octave wide, and in the mesh's own order inside a band: edges
-// that cost nearly the same are taken where memory is warm (a third faster on a million faces, same
-// error).
-bool cheaper(const Edge& x, const Edge& y) {
-    constexpr int kBand = 20; // low mantissa bits that do not count
-    const std::uint32_t x_band = x.key >> kBand;
-    const std::uint32_t y_band = y.key >> kBand;
-    return x_band != y_band ? x_band < y_band : x.a != y.a ? x.a < y.a : x.b < y.b;
-}
 
 class PassQueue {
 public:
@@ -38,7 +39,8 @@ public:
         for (std::size_t i = 0; i < chosen_.size() && mesh_.liveFaces() > stop_at_faces; ++i) {
             if (i % 1024 == 0 && job.stopRequested())
                 return -1;
-            const auto [key, a, b] = chosen_[i];
+            prefetchAhead(i);
+            const auto [cost, a, b] = chosen_[i];
             if (touched_[a] || touched_[b] || !mesh_.movable(a, b) ||
                 !mesh_.tryCollapse(a, b, mesh_.place(a, b), Strictness::Manifold))
                 continue;
@@ -55,25 +57,44 @@ private:
     void addAround(std::uint32_t v, Accept accept) {
         mesh_.forNeighbours(v, [&](std::uint32_t other) {
             if (accept(other))
-                edges_.push_back({std::bit_cast<std::uint32_t>(mesh_.place(v, other).key),
-                                  std::min(v, other),
-                                  std::max(v, other)});
+                edges_.push_back(
+                    {mesh_.place(v, other).key, std::min(v, other), std::max(v, other)});
         });
     }
 
-    // Edges up to 1.5 x the cost of the one at which a quarter of the faces would be gone.
+    // What is picked next is known, so its memory can be on its way.
+    void prefetchAhead(std::size_t i) const {
+        constexpr std::size_t kFar = 24, kMiddle = 16, kNear = 8;
+        const auto each = [&](std::size_t ahead, auto prefetch) {
+            if (i + ahead < chosen_.size()) {
+                prefetch(chosen_[i + ahead].a);
+                prefetch(chosen_[i + ahead].b);
+            }
+        };
+        each(kFar, [&](std::uint32_t v) { mesh_.prefetchRing(v); });
+        each(kMiddle, [&](std::uint32_t v) { mesh_.prefetchReferences(v); });
+        each(kNear, [&](std::uint32_t v) { mesh_.prefetchFaces(v); });
+    }
+
+    // Edges up to 1.5 x the cost of the one at which a quarter of the faces would be gone, sorted
+    // by band (counting sort, stable).
     void selectCheapest() {
         const std::size_t goal = std::min<std::size_t>(edges_.size() - 1, mesh_.liveFaces() / 8);
-        keys_.resize(edges_.size());
-        std::ranges::transform(edges_, keys_.begin(), &Edge::key);
-        const auto nth = keys_.begin() + static_cast<std::ptrdiff_t>(goal);
-        std::ranges::nth_element(keys_, nth);
-        const auto limit = std::bit_cast<std::uint32_t>(1.5f * std::bit_cast<float>(*nth));
-        chosen_.clear();
-        std::ranges::copy_if(edges_, std::back_inserter(chosen_), [&](const Edge& edge) {
-            return edge.key <= limit;
-        });
-        std::ranges::sort(chosen_, cheaper);
+        std::array<std::size_t, kBands + 1> begin{};
+        for (const Edge& edge : edges_)
+            ++begin[bandOf(edge.cost) + 1];
+        std::size_t middle = 0; // the band of the edge at `goal`
+        for (std::size_t band = 0; band < kBands; ++band) {
+            if (begin[band] <= goal)
+                middle = band;
+            begin[band + 1] += begin[band];
+        }
+        const auto cost = std::bit_cast<float>(static_cast<std::uint32_t>(middle << kBandShift));
+        const std::size_t last = std::min(bandOf(1.5f * cost), kBands - 1);
+        chosen_.resize(begin[last + 1]);
+        for (const Edge& edge : edges_)
+            if (bandOf(edge.cost) <= last)
+                chosen_[begin[bandOf(edge.cost)]++] = edge;
     }
 
     // Edges with an end that changed are costed anew; all others are still exact.
@@ -89,7 +110,6 @@ private:
     ComponentMesh& mesh_;
     std::vector<Edge> edges_;
     std::vector<Edge> chosen_;
-    std::vector<std::uint32_t> keys_;
     std::vector<std::uint32_t> moved_; // survivors of the pass
     std::vector<char> touched_;        // [vertices] took part in the pass
 };
