@@ -47,7 +47,7 @@ struct SelectedItem {
     std::uint32_t submesh = 0;
     std::uint32_t instance = kNone; // in Scene::instances; kNone: the whole submesh
 
-    friend auto operator<=>(const SelectedItem&, const SelectedItem&) = default;
+    friend auto operator<=>(const SelectedItem&, const SelectedItem&) = default; // NOLINT
 };
 
 } // namespace lodestone
