@@ -126,15 +126,15 @@ bool ComponentMesh::tryCollapse(std::uint32_t a,
 
 // Every vertex is its own wedge.
 void ComponentMesh::mergeTrivialWedges(std::uint32_t a, std::uint32_t b) {
-    killWedge(b, a);
+    killWedge(vertex_ids_[b], vertex_ids_[a]);
     if (alive(a))
-        addVersion(a, points_[a].position);
+        addVersion(vertex_ids_[a], points_[a].position);
     else
-        killWedge(a, kNone);
+        killWedge(vertex_ids_[a], kNone);
     for (const std::uint32_t f : dying_)
         for (const std::uint32_t v : faces_[f])
-            if (!alive(v) && log_.wedge_death[v] == kNone)
-                killWedge(v, kNone);
+            if (!alive(v) && log_.wedge_death[vertex_ids_[v]] == kNone)
+                killWedge(vertex_ids_[v], kNone);
 }
 
 void ComponentMesh::dropReference(std::uint32_t v, std::uint32_t face) {
@@ -147,7 +147,7 @@ void ComponentMesh::dropReference(std::uint32_t v, std::uint32_t face) {
 }
 
 void ComponentMesh::killFace(std::uint32_t face) {
-    log_.face_death[face] = step();
+    log_.face_death[face_ids_[face]] = step();
     --live_faces_;
 }
 

@@ -117,7 +117,7 @@ struct Welder {
     }
 };
 
-void addPrimitive(Welder& welder, const Geometry& geometry, std::uint32_t block_base) {
+void addPrimitive(Welder& welder, const Geometry& geometry) {
     Complex& complex = welder.complex;
     const auto primitive_begin = static_cast<std::uint32_t>(complex.wedge_source.size());
     std::vector<std::uint32_t> wedge_of(geometry.positions.size(), kNone);
@@ -128,8 +128,7 @@ void addPrimitive(Welder& welder, const Geometry& geometry, std::uint32_t block_
     for (std::uint32_t v = 0; v < geometry.positions.size(); ++v) {
         if (!used[v])
             continue;
-        const std::uint32_t block = block_base + cursor.at(v);
-        const std::uint32_t vertex = welder.weldVertex(geometry.positions[v], block);
+        const std::uint32_t vertex = welder.weldVertex(geometry.positions[v], cursor.at(v));
         wedge_of[v] = welder.addWedge(geometry, v, vertex, primitive_begin);
     }
     for (std::size_t t = 0; t < geometry.triangleCount(); ++t) {
@@ -147,24 +146,41 @@ void addPrimitive(Welder& welder, const Geometry& geometry, std::uint32_t block_
 }
 
 // Removes faces that repeat another one of the same primitive: same vertices, same orientation.
+// Faces are compared within the bucket of their smallest vertex.
 void dropDoubles(Complex& complex, std::uint32_t begin) {
-    IdTable table(complex.faces.size() - begin);
-    const auto key = [&](std::uint32_t f) {
+    const auto cornersOf = [&](std::uint32_t f) {
         std::array<std::uint32_t, 3> v;
         for (std::size_t k = 0; k < 3; ++k)
             v[k] = complex.wedge_vertex[complex.faces[f][k]];
         std::rotate(v.begin(), std::ranges::min_element(v), v.end());
         return v;
     };
+    const auto end = static_cast<std::uint32_t>(complex.faces.size());
+    std::vector<std::uint32_t> at(complex.positions.size() + 1, 0);
+    for (std::uint32_t f = begin; f < end; ++f)
+        ++at[cornersOf(f)[0] + 1];
+    std::partial_sum(at.begin(), at.end(), at.begin());
+
+    struct Sides {
+        std::uint32_t second = kNone;
+        std::uint32_t third = kNone;
+        bool operator==(const Sides&) const = default;
+    };
+
+    std::vector<Sides> bucket(end - begin); // filled from each bucket's front
     std::uint32_t kept = begin;
-    for (std::uint32_t f = begin; f < complex.faces.size(); ++f) {
-        const std::array<std::uint32_t, 3> v = key(f);
-        complex.faces[kept] = complex.faces[f];
-        const std::uint32_t hash = mix(mix(mix(0, v[0]), v[1]), v[2]);
-        if (table.findOrAdd(hash, kept, [&](std::uint32_t o) { return key(o) == v; }) == kept)
-            ++kept;
+    for (std::uint32_t f = begin; f < end; ++f) {
+        const auto [first, second, third] = cornersOf(f);
+        const Sides sides{second, third};
+        std::uint32_t slot = at[first];
+        while (bucket[slot] != sides && bucket[slot] != Sides{})
+            ++slot;
+        if (bucket[slot] == sides)
+            continue;
+        bucket[slot] = sides;
+        complex.faces[kept++] = complex.faces[f];
     }
-    complex.dropped_faces += static_cast<std::uint32_t>(complex.faces.size()) - kept;
+    complex.dropped_faces += end - kept;
     complex.faces.resize(kept);
 }
 
@@ -226,7 +242,7 @@ Complex buildComplex(const Submesh& submesh) {
     for (const Primitive& primitive : submesh.primitives) {
         if (primitive.mode == PrimitiveMode::Triangles) {
             const auto begin = static_cast<std::uint32_t>(complex.faces.size());
-            addPrimitive(welder, *primitive.geometry, 0);
+            addPrimitive(welder, *primitive.geometry);
             dropDoubles(complex, begin);
         }
         complex.wedge_begin.push_back(static_cast<std::uint32_t>(complex.wedge_source.size()));

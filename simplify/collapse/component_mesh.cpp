@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace lodestone {
 
@@ -25,6 +26,7 @@ void ComponentMesh::load(std::size_t component) {
     merged_wedges_.clear();
     buildVertices(component);
     buildReferences();
+    buildWedges();
     buildQuadrics();
 }
 
@@ -72,7 +74,18 @@ void ComponentMesh::buildVertices(std::size_t component) {
 void ComponentMesh::buildReferences() {
     live_faces_ = static_cast<std::uint32_t>(faces_.size());
     log_.face_death.assign(faces_.size(), kNone);
+    face_ids_.resize(faces_.size());
+    std::iota(face_ids_.begin(), face_ids_.end(), 0u);
     rings_.assign(points_.size(), {});
+    fillRings();
+    mark_face_.resize(points_.size());
+    stamp_ = 0;
+}
+
+// Lists the faces around each vertex anew; versions are kept.
+void ComponentMesh::fillRings() {
+    for (Ring& ring : rings_)
+        ring.capacity = ring.count = 0;
     for (const Corners& face : faces_)
         for (const std::uint32_t v : face)
             ++rings_[v].capacity;
@@ -85,16 +98,19 @@ void ComponentMesh::buildReferences() {
     for (std::uint32_t f = 0; f < faces_.size(); ++f)
         for (const std::uint32_t v : faces_[f])
             refs_[rings_[v].begin + rings_[v].count++] = f;
-    mark_face_.resize(points_.size());
-    stamp_ = 0;
+}
 
+void ComponentMesh::buildWedges() {
     const std::size_t wedges = log_.wedges.size();
     log_.wedge_death.assign(wedges, kNone);
     log_.wedge_parent.assign(wedges, kNone);
     const bool trivial = wedges == points_.size() && attributes_.size == 0 && !attributes_.carries;
     wedge_refs_.clear();
+    vertex_ids_.clear();
     if (trivial) { // then wedge and vertex ids are equal: both were numbered by first use
         face_wedges_.clear();
+        vertex_ids_.resize(wedges);
+        std::iota(vertex_ids_.begin(), vertex_ids_.end(), 0u);
         return;
     }
     wedge_refs_.assign(wedges, 0);
@@ -115,6 +131,43 @@ void ComponentMesh::buildReferences() {
                     attributes_.size,
                     values_.begin() + static_cast<std::ptrdiff_t>(w * attributes_.size));
     }
+}
+
+std::span<const std::uint32_t> ComponentMesh::compact() {
+    if (std::size_t{2} * live_faces_ > faces_.size())
+        return {};
+    moved_to_.assign(points_.size(), kNone);
+    std::uint32_t vertices = 0;
+    for (std::uint32_t v = 0; v < points_.size(); ++v) {
+        if (!alive(v))
+            continue;
+        moved_to_[v] = vertices;
+        points_[vertices] = points_[v];
+        metrics_[vertices] = metrics_[v];
+        rings_[vertices] = rings_[v];
+        if (!vertex_ids_.empty())
+            vertex_ids_[vertices] = vertex_ids_[v];
+        ++vertices;
+    }
+    points_.resize(vertices);
+    metrics_.resize(vertices);
+    rings_.resize(vertices);
+    std::uint32_t faces = 0;
+    for (std::uint32_t f = 0; f < faces_.size(); ++f) {
+        if (log_.face_death[face_ids_[f]] != kNone)
+            continue;
+        for (std::size_t k = 0; k < 3; ++k)
+            faces_[faces][k] = moved_to_[faces_[f][k]];
+        if (!face_wedges_.empty())
+            face_wedges_[faces] = face_wedges_[f];
+        face_ids_[faces++] = face_ids_[f];
+    }
+    faces_.resize(faces);
+    face_ids_.resize(faces);
+    if (!face_wedges_.empty())
+        face_wedges_.resize(faces);
+    fillRings();
+    return moved_to_;
 }
 
 Float3 ComponentMesh::faceNormal(const Corners& face) const {

@@ -95,9 +95,11 @@ public:
         __builtin_prefetch(&points_[v]);
         __builtin_prefetch(&metrics_[v]);
     }
+
     void prefetchReferences(std::uint32_t v) const {
         __builtin_prefetch(refs_.data() + rings_[v].begin);
     }
+
     void prefetchFaces(std::uint32_t v) const {
         for (const std::uint32_t face : facesAround(v))
             __builtin_prefetch(&faces_[face]);
@@ -112,6 +114,10 @@ public:
                      std::uint32_t b,
                      const Placement& placement,
                      Strictness strictness);
+
+    // Moves what is alive together again, once half the faces are dead: later work stays in cache.
+    // Result: new number of each vertex, kNone for the dead; empty if nothing was moved.
+    std::span<const std::uint32_t> compact();
 
     CollapseLog takeLog();
     double costScale() const; // x a logged cost: cost in the submesh's own units, unscaled weights
@@ -147,6 +153,8 @@ private:
 
     void buildVertices(std::size_t component);
     void buildReferences();
+    void fillRings();
+    void buildWedges();
     void buildQuadrics();
     void addFaceQuadric(std::uint32_t face);
     void addBoundaryQuadrics(std::uint32_t a);
@@ -190,11 +198,14 @@ private:
 
     glm::dvec3 origin_{0.0};
     double scale_ = 1.0;
-    std::vector<Point> points_;   // [vertices]
-    std::vector<Metric> metrics_; // [vertices]
-    std::vector<Ring> rings_;     // [vertices]
+    std::vector<Point> points_;             // [vertices]
+    std::vector<Metric> metrics_;           // [vertices]
+    std::vector<Ring> rings_;               // [vertices]
     std::vector<Corners> faces_;            // [faces] local vertices; dead: face_death set
     std::vector<Corners> face_wedges_;      // [faces] local wedges; empty while wedges are trivial
+    std::vector<std::uint32_t> face_ids_;   // [faces] in the log
+    std::vector<std::uint32_t> vertex_ids_; // [vertices] in the log, while wedges are trivial
+    std::vector<std::uint32_t> moved_to_;   // scratch of compact()
     std::vector<std::uint32_t> refs_;       // faces of each vertex
     std::vector<std::uint32_t> wedge_refs_; // [wedges] live corners; empty while trivial
     std::vector<std::uint32_t> wedge_carrier_;   // [wedges]

@@ -105,6 +105,17 @@ private:
         for (const std::uint32_t v : moved_)
             addAround(v, [&](std::uint32_t other) { return !touched_[other] || other > v; });
         touched_.assign(touched_.size(), false);
+        renumber(mesh_.compact());
+    }
+
+    void renumber(std::span<const std::uint32_t> moved_to) {
+        if (moved_to.empty())
+            return;
+        for (Edge& edge : edges_) {
+            edge.a = moved_to[edge.a];
+            edge.b = moved_to[edge.b];
+        }
+        touched_.resize(mesh_.vertexCount());
     }
 
     ComponentMesh& mesh_;
