@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <iostream>
@@ -216,13 +217,14 @@ std::string optionalParts() {
 
 #ifdef LODESTONE_WITH_WINDOW
 
-OrbitCamera orbitCamera(const CameraState& state, const Bounds& bounds) {
+// The shorter side of the picture spans kVerticalFovRad, so that tall pictures cut nothing off.
+OrbitCamera orbitCamera(const CameraState& state, const Bounds& bounds, double aspect) {
     OrbitCamera camera;
     camera.target = state.target;
     camera.distance = state.distance;
     camera.azimuth_rad = state.azimuth_deg * kRadiansPerDegree;
     camera.elevation_rad = state.elevation_deg * kRadiansPerDegree;
-    camera.yfov_rad = kVerticalFovRad;
+    camera.yfov_rad = 2.0 * std::atan(std::tan(kVerticalFovRad * 0.5) / std::min(1.0, aspect));
     if (!bounds.empty) {
         camera.scene_center = bounds.center();
         camera.scene_radius = bounds.diagonal() * 0.5;
@@ -265,7 +267,7 @@ public:
             if (host_.takeCloseRequest())
                 window_.askToQuit();
             if (session_.update(commands_))
-                settle_ = kSettlePasses;
+                settle_ = std::max(settle_, 1);
             const bool due = std::chrono::steady_clock::now() >= wake_at_;
             if (!host_.minimised() && (settle_ > 0 || stale_ || due))
                 drawFrame(err);
@@ -343,8 +345,9 @@ private:
                                   lane->status.lod,
                                   {view.width_px, view.height_px}});
         }
+        const double aspect = wanted.empty() ? 1.0 : wanted.front().size.aspect();
         const auto drawn = pictures_.draw(wanted,
-                                          orbitCamera(document.camera, document.bounds),
+                                          orbitCamera(document.camera, document.bounds, aspect),
                                           viewOptions(document.view),
                                           kPictureBudget_ms);
         if (!drawn) {

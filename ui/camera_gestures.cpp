@@ -49,14 +49,14 @@ CameraState lookFrom(CameraState camera, AxisSide side) {
 }
 
 std::optional<CameraState>
-cameraGesture(const CameraState& camera, float view_height, double yfov_rad) {
+cameraGesture(const CameraState& camera, float shorter_side, double fov_rad) {
     const ImGuiIO& io = ImGui::GetIO();
     CameraState moved = camera;
     if (ImGui::IsItemActive()) {
         const bool middle = ImGui::IsMouseDown(ImGuiMouseButton_Middle);
         const bool pans = ImGui::IsMouseDown(ImGuiMouseButton_Right) || (middle && io.KeyShift);
-        const double unit_size = 2.0 * camera.distance * std::tan(yfov_rad * 0.5) /
-                                 static_cast<double>(std::max(1.0f, view_height));
+        const double unit_size = 2.0 * camera.distance * std::tan(fov_rad * 0.5) /
+                                 static_cast<double>(std::max(1.0f, shorter_side));
         const auto right = static_cast<double>(io.MouseDelta.x);
         const auto down = static_cast<double>(io.MouseDelta.y);
         moved = pans ? panned(moved, -right, down, unit_size) : orbited(moved, right, down);

@@ -5,10 +5,11 @@
 
 namespace lodestone::ui {
 
-// What the mouse does to the camera over the last ImGui item, a picture view_height high: left or
-// middle drag orbits, right or Shift+middle drag pans, the wheel zooms. nullopt: nothing.
+// What the mouse does to the camera over the last ImGui item, a picture: left or middle drag
+// orbits, right or Shift+middle drag pans, the wheel zooms. nullopt: nothing.
+// shorter_side: of the picture, in window units; fov_rad: the angle that it spans.
 std::optional<CameraState>
-cameraGesture(const CameraState& camera, float view_height, double yfov_rad);
+cameraGesture(const CameraState& camera, float shorter_side, double fov_rad);
 
 enum class AxisSide : std::uint8_t { Front, Right, Top };
 

@@ -275,7 +275,8 @@ void drawPicture(
     ui.record("picture");
     if (ImGui::IsItemActivated())
         ui.push(SetActiveLane{lane.id});
-    if (const auto camera = cameraGesture(input.document.camera, area.size.y, kVerticalFovRad))
+    if (const auto camera = cameraGesture(
+            input.document.camera, std::min(area.size.x, area.size.y), kVerticalFovRad))
         ui.push(SetCamera{*camera});
     drawState(ui, state, lane, picture && picture->draft, area);
     state.views.push_back({lane.id,

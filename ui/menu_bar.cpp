@@ -124,7 +124,7 @@ void lodMenu(const Ui& ui, const PanelInput& input, WindowState& state) {
 // One menu of the bar; recorded by its name.
 template <class Body>
 void menu(Ui& ui, const char* name, Body body) {
-    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(18), ui.px(7)});
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(9), ui.px(7)});
     const bool open = ImGui::BeginMenu(name);
     ui.record(name);
     ImGui::PopStyleVar();

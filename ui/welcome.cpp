@@ -31,7 +31,7 @@ bool sampleCard(const Ui& ui, const SampleWords& sample, const ImVec2& size) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(begin,
                        begin + size,
-                       ImGui::IsItemHovered() ? color::kFieldHovered : color::kField,
+                       ImGui::IsItemHovered() ? color::kFieldActive : color::kFieldHovered,
                        ui.px(4));
     drawText(ui,
              begin + ImVec2(ui.px(10), ui.px(8)),
@@ -87,8 +87,7 @@ void drawWelcome(Ui ui, const PanelInput& input, WindowState& state, const Area&
              begin + ImVec2(0, ui.px(20)),
              Align::Left,
              fitText(ui,
-                     "Drag the slider above the views: every lane follows. Open your own scene, or "
-                     "try one of ours.",
+                     "Drag the slider above the views: every lane follows. Try another scene:",
                      inner),
              {nullptr, color::kSecondary});
     ImGui::SetCursorScreenPos(begin + ImVec2(inner - textWidth(ui, "\u00d7"), 0));
