@@ -23,8 +23,14 @@ ComponentMesh::ComponentMesh(const Complex& complex,
 void ComponentMesh::load(std::size_t component) {
     log_ = {};
     values_.clear();
-    merged_wedges_.clear();
     buildVertices(component);
+    const std::size_t steps = points_.size(); // at most: every step ends a vertex
+    log_.cost.reserve(steps);
+    log_.error2.reserve(steps);
+    log_.kill_order.reserve(log_.wedges.size());
+    log_.version_wedge.reserve(steps);
+    log_.version_step.reserve(steps);
+    log_.version_position.reserve(steps);
     buildReferences();
     buildWedges();
     buildQuadrics();
