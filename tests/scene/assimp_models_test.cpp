@@ -1,4 +1,4 @@
-#include "models_folder.h"
+#include "tests/models_folder.h"
 #include "scene/assimp/assimp_import.h"
 
 #include <algorithm>
