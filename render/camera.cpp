@@ -3,14 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <limits>
 #include <numbers>
+#include <span>
+#include <vector>
 
 namespace lodestone {
 
 namespace {
 
 constexpr double kMaxElevation = 89.9 * std::numbers::pi / 180.0;
-constexpr double kFrameMargin = 1.08; // air around what is framed
+constexpr double kFrameFill = 0.88; // share of the view that what is framed spans
 
 struct Axes {
     glm::dvec3 right;
@@ -51,49 +54,116 @@ double halfHeightAtTarget(const OrbitCamera& camera) {
     return camera.distance * std::tan(camera.yfov_rad * 0.5);
 }
 
-// Smallest distance at which every corner of the box is inside the frustum.
-double distanceToSee(const OrbitCamera& camera, const Bounds& bounds, double aspect) {
-    const Axes axes = cameraAxes(camera);
-    const double tan_y = std::tan(camera.yfov_rad * 0.5);
-    const double tan_x = tan_y * aspect;
-    const glm::dvec3 half = bounds.size() * 0.5;
-    double distance = 0.0;
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 p((corner & 1) ? half.x : -half.x,
-                           (corner & 2) ? half.y : -half.y,
-                           (corner & 4) ? half.z : -half.z);
-        const double depth = camera.orthographic ? 0.0 : glm::dot(p, axes.back);
-        distance = std::max({distance,
-                             depth + std::abs(glm::dot(p, axes.right)) / tan_x,
-                             depth + std::abs(glm::dot(p, axes.up)) / tan_y});
+// Points seen from the origin along the camera's axes: x right, y up, z towards the camera.
+std::vector<glm::dvec3>
+alongAxes(std::span<const glm::dvec3> points, const glm::dvec3& origin, const Axes& axes) {
+    std::vector<glm::dvec3> seen;
+    for (const glm::dvec3& point : points) {
+        const glm::dvec3 from = point - origin;
+        seen.emplace_back(
+            glm::dot(from, axes.right), glm::dot(from, axes.up), glm::dot(from, axes.back));
     }
-    return distance;
+    return seen;
 }
 
-void aimAt(OrbitCamera& camera, const Bounds& bounds, double aspect) {
-    const Sphere sphere = sphereAround(bounds);
-    camera.target = sphere.center;
-    double distance = sphere.radius / std::sin(camera.yfov_rad * 0.5);
-    if (!bounds.empty && std::isfinite(bounds.diagonal()) && aspect > 0.0) {
-        const double fitted = distanceToSee(camera, bounds, aspect);
-        if (fitted > sphere.radius * 0.1)
-            distance = fitted;
+struct Span {
+    double low = 0.0;
+    double high = 0.0;
+};
+
+// Where the points are in the picture along one axis, in tangents of the viewing angle (in lengths
+// without perspective), for an eye at `eye`.
+Span pictureSpan(std::span<const glm::dvec3> points,
+                 const glm::dvec3& eye,
+                 int axis,
+                 bool orthographic) {
+    Span span{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for (const glm::dvec3& point : points) {
+        const double depth = orthographic ? 1.0 : eye.z - point.z;
+        const double at = (point[axis] - eye[axis]) / depth;
+        span = {std::min(span.low, at), std::max(span.high, at)};
     }
-    camera.distance = distance * kFrameMargin;
+    return span;
+}
+
+// Nearest eye that sees all points within the tangents (x, y), and the middle of the picture.
+// Each point bounds the eye by two planes an axis: the highest crossing is the answer.
+glm::dvec3 nearestEye(std::span<const glm::dvec3> points, const glm::dvec2& tangent) {
+    double front = -std::numeric_limits<double>::infinity();
+    glm::dvec3 eye(0.0, 0.0, front);
+    for (int axis = 0; axis < 2; ++axis) {
+        double right = front;
+        double left = front;
+        for (const glm::dvec3& point : points) {
+            right = std::max(right, point[axis] + tangent[axis] * point.z);
+            left = std::max(left, tangent[axis] * point.z - point[axis]);
+        }
+        eye[axis] = (right - left) * 0.5;
+        eye.z = std::max(eye.z, (right + left) * 0.5 / tangent[axis]);
+    }
+    return eye;
+}
+
+// The point of view that fits the points, relative to the origin of their coordinates.
+glm::dvec3 fittingEye(std::span<const glm::dvec3> points,
+                      const OrbitCamera& camera,
+                      const glm::dvec2& tangent,
+                      double radius) {
+    glm::dvec3 eye = nearestEye(points, tangent);
+    double front = 0.0;
+    for (const glm::dvec3& point : points)
+        front = std::max(front, point.z);
+    eye.z = std::max(eye.z, front + radius * 0.05); // things seen edge-on
+    if (camera.orthographic) {
+        glm::dvec2 half(0.0);
+        for (int axis = 0; axis < 2; ++axis) {
+            const Span span = pictureSpan(points, {0.0, 0.0, 0.0}, axis, true);
+            eye[axis] = (span.low + span.high) * 0.5;
+            half[axis] = (span.high - span.low) * 0.5;
+        }
+        eye.z = std::max({half.x / tangent.x, half.y / tangent.y, radius * 0.05});
+        return eye;
+    }
+    // The axis that has room left: the picture's middle, not the box's.
+    constexpr int kCentringSteps = 4;
+    for (int step = 0; step < kCentringSteps; ++step)
+        for (int axis = 0; axis < 2; ++axis) {
+            const Span span = pictureSpan(points, eye, axis, false);
+            eye[axis] += (span.low + span.high) * 0.5 * eye.z;
+        }
+    return eye;
+}
+
+void aimAt(OrbitCamera& camera, const FramePoints& frame, double aspect) {
+    const Sphere sphere = sphereAround(frame.bounds);
+    camera.target = sphere.center;
+    camera.distance = sphere.radius / std::sin(camera.yfov_rad * 0.5);
+    if (frame.points.empty() || !std::isfinite(frame.bounds.diagonal()) || !(aspect > 0.0))
+        return;
+    const Axes axes = cameraAxes(camera);
+    const std::vector<glm::dvec3> points = alongAxes(frame.points, sphere.center, axes);
+    const double tangent = std::tan(camera.yfov_rad * 0.5) * kFrameFill;
+    const glm::dvec3 eye = fittingEye(points, camera, {tangent * aspect, tangent}, sphere.radius);
+    camera.target += axes.right * eye.x + axes.up * eye.y;
+    camera.distance = eye.z;
 }
 
 } // namespace
 
-void frameCamera(OrbitCamera& camera, const Bounds& bounds, double aspect) {
-    const Sphere sphere = sphereAround(bounds);
+void frameCamera(OrbitCamera& camera, const FramePoints& frame, double aspect) {
+    const Sphere sphere = sphereAround(frame.bounds);
     camera.scene_center = sphere.center;
     camera.scene_radius = sphere.radius;
-    aimAt(camera, bounds, aspect);
+    aimAt(camera, frame, aspect);
+}
+
+void frameCamera(OrbitCamera& camera, const Bounds& bounds, double aspect) {
+    frameCamera(camera, framePoints(bounds), aspect);
 }
 
 void frameSelection(OrbitCamera& camera, const Bounds& bounds, double aspect) {
     if (!bounds.empty)
-        aimAt(camera, bounds, aspect);
+        aimAt(camera, framePoints(bounds), aspect);
 }
 
 void orbitCamera(OrbitCamera& camera, double azimuth_rad, double elevation_rad) {

@@ -1,5 +1,6 @@
 #pragma once
 // Orbit camera. Pure arithmetic in double, right-handed, y up, looks along -z; no GL.
+#include "render/frame_points.h"
 #include "scene/scene.h"
 
 #include <glm/glm.hpp>
@@ -23,8 +24,11 @@ struct OrbitCamera {
 
 enum class AxisView : std::uint8_t { Front, Back, Right, Left, Top, Bottom };
 
-// Keeps the direction; target and distance so that the whole of bounds is seen at this aspect
-// (width / height), near and far planes enclose it. Empty bounds: a unit sphere at the origin.
+// Keeps the direction; target and distance so that the points span 88 % of the view's tighter side
+// at this aspect (width / height) and are in its middle; near and far planes enclose the bounds.
+// No points: a unit sphere at the origin.
+void frameCamera(OrbitCamera& camera, const FramePoints& frame, double aspect);
+// The same for the corners of the box: looser, as the box is larger than what it encloses.
 void frameCamera(OrbitCamera& camera, const Bounds& bounds, double aspect);
 // As frameCamera, for a part of the scene: near and far planes keep enclosing the scene.
 void frameSelection(OrbitCamera& camera, const Bounds& bounds, double aspect);

@@ -80,6 +80,7 @@ GpuSceneState::GpuSceneState(std::shared_ptr<RendererState> shared, ScenePtr sou
 
 void GpuSceneState::open() {
     bounds = robustWorldBounds(*scene);
+    frame_points = framePoints(*scene, bounds);
     frame.center = bounds.empty ? glm::dvec3(0.0) : bounds.center();
     const double radius = bounds.empty ? 1.0 : bounds.diagonal() * 0.5;
     frame.radius = radius > 0.0 && std::isfinite(radius) ? radius : 1.0;
@@ -301,6 +302,10 @@ const ScenePtr& GpuScene::scene() const {
 
 const Bounds& GpuScene::bounds() const {
     return state_->bounds;
+}
+
+const FramePoints& GpuScene::framePoints() const {
+    return state_->frame_points;
 }
 
 const std::vector<std::string>& GpuScene::notes() const {

@@ -1,6 +1,7 @@
 #pragma once
 // A scene on the GPU: textures and materials once, geometry shared among its LODs by GeometryPtr
 // identity, transforms in one buffer for each submesh. Main thread, context current.
+#include "render/frame_points.h"
 #include "render/renderer.h"
 #include "scene/lod.h"
 
@@ -51,7 +52,8 @@ public:
     ~GpuScene();
 
     const ScenePtr& scene() const;
-    const Bounds& bounds() const; // robust: what framing uses
+    const Bounds& bounds() const;           // robust
+    const FramePoints& framePoints() const; // for frameCamera
     const std::vector<std::string>& notes() const;
     std::uint64_t memoryBytes() const; // geometry + instances + textures now on the GPU
 

@@ -69,6 +69,7 @@ public:
     std::shared_ptr<RendererState> renderer;
     ScenePtr scene;
     Bounds bounds;
+    FramePoints frame_points;
     SceneFrame frame;
     std::vector<GpuSubmesh> submeshes;  // [scene.submeshes]
     std::vector<GpuMaterial> materials; // [scene.materials + 1]; the last is glTF's default

@@ -38,6 +38,69 @@ TEST(OrbitCamera, FramingPutsEveryCornerInsideTheView) {
         }
 }
 
+// A tripod's feet and top: fills a fraction of its box only, from most sides.
+ScenePtr tripods() {
+    auto geometry = std::make_shared<Geometry>();
+    geometry->positions = {{0, 4, 0}, {1, 0, 0}, {-0.5, 0, 0.8}, {-0.5, 0, -0.8}, {50, 50, 50}};
+    geometry->indices = {0, 1, 2, 0, 2, 3}; // the last vertex belongs to no triangle
+    auto scene = std::make_shared<Scene>();
+    scene->submeshes.push_back({"tripod", {{PrimitiveMode::Triangles, geometry}}});
+    scene->instances.resize(2);
+    scene->instances[1].transform[3] = glm::dvec4(3.0, 0.5, -2.0, 1.0);
+    scene->instances[1].transform[0] *= -1.5;
+    return scene;
+}
+
+TEST(OrbitCamera, FramedModelSpansTheSameShareFromEverySideInTheMiddle) {
+    const ScenePtr scene = tripods();
+    Bounds drawn;
+    std::vector<glm::dvec3> vertices;
+    for (const Instance& instance : scene->instances)
+        for (const std::uint32_t index : scene->submeshes[0].primitives[0].geometry->indices) {
+            const glm::vec3& local = scene->submeshes[0].primitives[0].geometry->positions[index];
+            vertices.emplace_back(instance.transform * glm::dvec4(local, 1.0));
+            drawn.add(vertices.back());
+        }
+    const FramePoints frame = framePoints(*scene, drawn);
+    EXPECT_EQ(frame.bounds.max, drawn.max);
+    for (const double aspect : {0.5, 1.0, 1.9})
+        for (int turn = 0; turn < 24; ++turn) {
+            OrbitCamera camera;
+            camera.orthographic = turn % 5 == 0;
+            camera.azimuth_rad = turn * 0.9;
+            camera.elevation_rad = turn * 0.11 - 1.3;
+            frameCamera(camera, frame, aspect);
+            glm::dvec2 low(9.0);
+            glm::dvec2 high(-9.0);
+            for (const glm::dvec3& vertex : vertices) {
+                const glm::dvec3 ndc = project(camera, aspect, vertex);
+                EXPECT_LT(std::abs(ndc.z), 1.0);
+                low = glm::min(low, glm::dvec2(ndc));
+                high = glm::max(high, glm::dvec2(ndc));
+            }
+            const glm::dvec2 share = (high - low) * 0.5;
+            EXPECT_NEAR(std::max(share.x, share.y), 0.88, 0.03) << "turn " << turn;
+            EXPECT_NEAR(low.x, -high.x, 0.02) << "turn " << turn;
+            EXPECT_NEAR(low.y, -high.y, 0.02) << "turn " << turn;
+        }
+}
+
+TEST(OrbitCamera, FramingLeavesOutVerticesBeyondTheBounds) {
+    Bounds bounds = boxBounds({-2, 0, -3}, {4, 2, 2});
+    for (const glm::dvec3& point : framePoints(*tripods(), bounds).points)
+        EXPECT_LE(point.y, 2.0 + 1e-3);
+}
+
+TEST(OrbitCamera, FramingNothingOrAPointStillLooksSomewhere) {
+    OrbitCamera camera;
+    frameCamera(camera, FramePoints{}, 1.5);
+    EXPECT_GT(camera.distance, 1.0);
+    frameCamera(camera, boxBounds({7, 7, 7}, {7, 7, 7}), 1.5);
+    EXPECT_GT(camera.distance, 0.0);
+    EXPECT_TRUE(std::isfinite(camera.distance));
+    EXPECT_NEAR(glm::length(camera.target - glm::dvec3(7.0)), 0.0, 1e-6);
+}
+
 TEST(OrbitCamera, PanKeepsThePointUnderTheMouse) {
     OrbitCamera camera;
     frameCamera(camera, boxBounds({-1, -1, -1}, {1, 1, 1}), 1.5);
