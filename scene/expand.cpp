@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <map>
+#include <span>
 #include <tbb/parallel_for.h>
 #include <tuple>
 
@@ -150,36 +151,78 @@ struct Work {
     std::vector<Task> tasks;
 };
 
-Result<Work>
-planWork(const Expansion& expansion, const Scene& scene, const Lod& lod, const Kept& kept) {
-    Work work;
-    for (std::uint32_t g = 0; g < expansion.groups.size(); ++g) {
-        std::uint64_t vertices = 0;
-        std::uint64_t indices = 0;
-        for (const ExpandPart& part : expansion.groups[g].parts) {
-            const Geometry& from = *lod.submeshes[part.submesh].primitives[part.primitive];
-            for (const std::uint32_t instance : kept.merged[part.submesh]) {
-                work.tasks.push_back(
-                    {g,
-                     {static_cast<std::uint32_t>(vertices), static_cast<std::uint32_t>(indices)},
+// Places the pieces of one group after each other, each instance in a weld block of its own.
+class GroupPlanner {
+public:
+    GroupPlanner(const Scene& scene, const Lod& lod, std::uint32_t group)
+        : scene_(scene), lod_(lod), group_(group) {}
+
+    // parts: of one submesh.
+    Result<void> add(std::span<const ExpandPart> parts,
+                     std::span<const std::uint32_t> instances,
+                     std::vector<Task>& tasks) {
+        for (const std::uint32_t instance : instances) {
+            blocks_.push_back(static_cast<std::uint32_t>(vertices_));
+            for (const ExpandPart& part : parts) {
+                const Geometry& from = *lod_.submeshes[part.submesh].primitives[part.primitive];
+                tasks.push_back(
+                    {group_,
+                     {static_cast<std::uint32_t>(vertices_), static_cast<std::uint32_t>(indices_)},
                      &from,
                      instance});
-                vertices += from.positions.size();
-                indices += from.indices.size();
-                if (vertices > kMostVertices || indices > 8 * kMostVertices - 1)
+                vertices_ += from.positions.size();
+                indices_ += from.indices.size();
+                if (vertices_ > kMostVertices || indices_ > 8 * kMostVertices - 1)
                     return fail(ErrorKind::Failed,
-                                scene.name + ": expanding its instances gives more than " +
+                                scene_.name + ": expanding its instances gives more than " +
                                     std::to_string(kMostVertices) +
                                     " vertices; simplify it first or keep the instances");
             }
         }
-        const Submesh& submesh = expansion.skeleton->submeshes[expansion.first_merged + g];
-        auto geometry = std::make_shared<Geometry>(*submesh.primitives[0].geometry);
-        geometry->positions.resize(vertices);
-        geometry->indices.resize(indices);
+        return {};
+    }
+
+    std::shared_ptr<Geometry> makeGeometry(const Geometry& skeleton) {
+        auto geometry = std::make_shared<Geometry>(skeleton);
+        geometry->positions.resize(vertices_);
+        geometry->indices.resize(indices_);
         for (Attribute& attribute : geometry->attributes)
-            attribute.bytes.resize(vertices * attribute.stride());
-        work.geometries.push_back(std::move(geometry));
+            attribute.bytes.resize(vertices_ * attribute.stride());
+        // An instance whose pieces are empty has no block.
+        blocks_.erase(std::unique(blocks_.begin(), blocks_.end()), blocks_.end());
+        if (!blocks_.empty() && blocks_.back() == vertices_)
+            blocks_.pop_back();
+        geometry->weld_blocks = std::move(blocks_);
+        return geometry;
+    }
+
+private:
+    const Scene& scene_;
+    const Lod& lod_;
+    std::uint32_t group_ = 0;
+    std::uint64_t vertices_ = 0;
+    std::uint64_t indices_ = 0;
+    std::vector<std::uint32_t> blocks_;
+};
+
+Result<Work>
+planWork(const Expansion& expansion, const Scene& scene, const Lod& lod, const Kept& kept) {
+    Work work;
+    for (std::uint32_t g = 0; g < expansion.groups.size(); ++g) {
+        GroupPlanner planner(scene, lod, g);
+        std::span<const ExpandPart> left = expansion.groups[g].parts;
+        while (!left.empty()) {
+            const std::uint32_t submesh = left.front().submesh;
+            std::size_t count = 1;
+            while (count < left.size() && left[count].submesh == submesh)
+                ++count;
+            if (auto added = planner.add(left.first(count), kept.merged[submesh], work.tasks);
+                !added)
+                return tl::unexpected(added.error());
+            left = left.subspan(count);
+        }
+        const Submesh& submesh = expansion.skeleton->submeshes[expansion.first_merged + g];
+        work.geometries.push_back(planner.makeGeometry(*submesh.primitives[0].geometry));
     }
     return work;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace lodestone {
@@ -22,31 +23,57 @@ glm::dmat3 cofactors(const glm::dmat3& m) {
     return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
 }
 
-glm::dvec3 vectorAt(const Attribute& attribute, std::size_t vertex) {
-    return {attributeValue(attribute, vertex, 0),
-            attributeValue(attribute, vertex, 1),
-            attributeValue(attribute, vertex, 2)};
-}
+// First three components of a vertex, whatever their type.
+struct AnyVectors {
+    static glm::dvec3 at(const Attribute& attribute, std::size_t vertex) {
+        return {attributeValue(attribute, vertex, 0),
+                attributeValue(attribute, vertex, 1),
+                attributeValue(attribute, vertex, 2)};
+    }
 
-void setVector(Attribute& attribute, std::size_t vertex, const glm::dvec3& value) {
-    for (int c = 0; c < 3; ++c)
-        setAttributeValue(
-            attribute, vertex, static_cast<std::size_t>(c), static_cast<float>(value[c]));
-}
+    static void set(Attribute& attribute, std::size_t vertex, const glm::vec3& value) {
+        for (int c = 0; c < 3; ++c)
+            setAttributeValue(attribute, vertex, static_cast<std::size_t>(c), value[c]);
+    }
+};
+
+// The same for floats, several times as fast.
+struct FloatVectors {
+    static glm::dvec3 at(const Attribute& attribute, std::size_t vertex) {
+        glm::vec3 value;
+        std::memcpy(&value, attribute.bytes.data() + vertex * attribute.stride(), sizeof value);
+        return value;
+    }
+
+    static void set(Attribute& attribute, std::size_t vertex, const glm::vec3& value) {
+        std::memcpy(attribute.bytes.data() + vertex * attribute.stride(), &value, sizeof value);
+    }
+};
 
 // Unit vectors of `from` through `matrix`, unit again; one that vanishes stays as it was.
+template <class Vectors>
+void transformVectors(Attribute& to,
+                      std::size_t first_vertex,
+                      const Attribute& from,
+                      const glm::dmat3& matrix) {
+    const std::size_t count = from.bytes.size() / from.stride();
+    for (std::size_t v = 0; v < count; ++v) {
+        const glm::dvec3 before = Vectors::at(from, v);
+        const glm::dvec3 after = matrix * before;
+        const double length = glm::length(after);
+        const bool usable = std::isfinite(length) && length > 0.0;
+        Vectors::set(to, first_vertex + v, glm::vec3(usable ? after / length : before));
+    }
+}
+
 void transformDirections(Attribute& to,
                          std::size_t first_vertex,
                          const Attribute& from,
                          const glm::dmat3& matrix) {
-    const std::size_t count = from.bytes.size() / from.stride();
-    for (std::size_t v = 0; v < count; ++v) {
-        const glm::dvec3 before = vectorAt(from, v);
-        const glm::dvec3 after = matrix * before;
-        const double length = glm::length(after);
-        const bool usable = std::isfinite(length) && length > 0.0;
-        setVector(to, first_vertex + v, usable ? after / length : before);
-    }
+    if (from.type == ComponentType::Float32)
+        transformVectors<FloatVectors>(to, first_vertex, from, matrix);
+    else
+        transformVectors<AnyVectors>(to, first_vertex, from, matrix);
 }
 
 void flipHandedness(Attribute& tangents, std::size_t first_vertex, std::size_t count) {

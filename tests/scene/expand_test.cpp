@@ -55,6 +55,50 @@ TEST(Expand, FaceAndVertexNormalsStayOutwardUnderShearMirrorAndFlattening) {
     }
 }
 
+TEST(Expand, EveryInstanceIsABlockThatIsNotWelded) {
+    const ScenePtr flat = expanded(fixtures::cubeRowScene(4));
+    EXPECT_EQ(flat->submeshes[0].primitives[0].geometry->weld_blocks,
+              (std::vector<std::uint32_t>{0, 24, 48, 72}));
+}
+
+TEST(Expand, PiecesOfOneInstanceInOneMaterialAreOneBlock) {
+    auto scene = std::make_shared<Scene>(*fixtures::twoMaterialCubeScene());
+    for (Primitive& primitive : scene->submeshes[0].primitives)
+        primitive.material = 0;
+    const ScenePtr flat = expanded(scene);
+    ASSERT_EQ(flat->submeshes.size(), 1U);
+    const Geometry& geometry = *flat->submeshes[0].primitives[0].geometry;
+    EXPECT_EQ(geometry.positions.size(), 24U);
+    EXPECT_EQ(geometry.weld_blocks, std::vector<std::uint32_t>{0});
+}
+
+TEST(Expand, QuantizedNormalsStayUnit) {
+    auto scene = std::make_shared<Scene>(*fixtures::awkwardInstancesScene());
+    Geometry geometry = *scene->submeshes[0].primitives[0].geometry;
+    for (Attribute& attribute : geometry.attributes)
+        if (attribute.semantic == "NORMAL") {
+            const Attribute floats = attribute;
+            attribute.type = ComponentType::Int8;
+            attribute.normalized = true;
+            attribute.bytes.assign(geometry.positions.size() * attribute.stride(), std::byte{});
+            for (std::size_t v = 0; v < geometry.positions.size(); ++v)
+                for (std::size_t c = 0; c < 3; ++c)
+                    setAttributeValue(attribute, v, c, attributeValue(floats, v, c));
+        }
+    scene->submeshes[0].primitives[0].geometry = std::make_shared<const Geometry>(geometry);
+    const ScenePtr flat = expanded(scene);
+    const Geometry& merged = *flat->submeshes[0].primitives[0].geometry;
+    const Attribute* normals = findAttribute(merged.attributes, "NORMAL");
+    ASSERT_NE(normals, nullptr);
+    EXPECT_EQ(normals->type, ComponentType::Int8);
+    for (std::size_t v = 0; v < merged.positions.size(); ++v) {
+        const glm::vec3 normal(attributeValue(*normals, v, 0),
+                               attributeValue(*normals, v, 1),
+                               attributeValue(*normals, v, 2));
+        EXPECT_NEAR(glm::length(normal), 1.0f, 0.02f) << "vertex " << v;
+    }
+}
+
 TEST(Expand, StopsWhenAsked) {
     std::stop_source stop;
     stop.request_stop();
