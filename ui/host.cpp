@@ -3,6 +3,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <algorithm>
+#include <array>
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <cmath>
@@ -15,6 +16,29 @@ namespace lodestone::ui {
 struct Host::Events {
     bool any = false;
     std::vector<std::filesystem::path> dropped;
+
+    // A key that went down and up between two passes would never be seen down: its release waits.
+    std::vector<std::array<int, 3>> waiting_releases; // key, scan code, modifiers
+    std::vector<int> pressed;                         // since the last pass
+
+    void key(GLFWwindow* window, int key, int scan_code, int action, int modifiers) {
+        any = true;
+        if (action == GLFW_RELEASE &&
+            std::find(pressed.begin(), pressed.end(), key) != pressed.end()) {
+            waiting_releases.push_back({key, scan_code, modifiers});
+            return;
+        }
+        if (action == GLFW_PRESS)
+            pressed.push_back(key);
+        ImGui_ImplGlfw_KeyCallback(window, key, scan_code, action, modifiers);
+    }
+
+    void passBegun(GLFWwindow* window) {
+        pressed.clear();
+        any = any || !waiting_releases.empty();
+        for (const auto& [key, scan_code, modifiers] : std::exchange(waiting_releases, {}))
+            ImGui_ImplGlfw_KeyCallback(window, key, scan_code, GLFW_RELEASE, modifiers);
+    }
 
     static Events& of(GLFWwindow* window) {
         return *static_cast<Events*>(glfwGetWindowUserPointer(window));
@@ -35,25 +59,6 @@ float scaleFromEnvironment() {
 Host::Host(void* window, float scale)
     : window_(static_cast<GLFWwindow*>(window)), events_(std::make_unique<Events>()) {
     glfwSetWindowUserPointer(window_, events_.get());
-    // Before the backend's own callbacks, which call these in turn.
-    glfwSetKeyCallback(window_,
-                       [](GLFWwindow* w, int, int, int, int) { Events::of(w).any = true; });
-    glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned) { Events::of(w).any = true; });
-    glfwSetMouseButtonCallback(window_,
-                               [](GLFWwindow* w, int, int, int) { Events::of(w).any = true; });
-    glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double) { Events::of(w).any = true; });
-    glfwSetCursorPosCallback(window_,
-                             [](GLFWwindow* w, double, double) { Events::of(w).any = true; });
-    glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int) { Events::of(w).any = true; });
-    glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int) { Events::of(w).any = true; });
-    glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { Events::of(w).any = true; });
-    glfwSetFramebufferSizeCallback(window_,
-                                   [](GLFWwindow* w, int, int) { Events::of(w).any = true; });
-    glfwSetWindowCloseCallback(window_, [](GLFWwindow* w) { Events::of(w).any = true; });
-    glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** paths) {
-        Events::of(w).any = true;
-        Events::of(w).dropped.assign(paths, paths + count);
-    });
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
@@ -70,8 +75,46 @@ Host::Host(void* window, float scale)
     if (const float wanted = scaleFromEnvironment(); wanted > 0.0f)
         scale = wanted;
     theme_ = applyTheme(scale, density_);
-    ImGui_ImplGlfw_InitForOpenGL(window_, true);
+    ImGui_ImplGlfw_InitForOpenGL(window_, false);
+    installCallbacks();
     ImGui_ImplOpenGL3_Init("#version 330 core");
+}
+
+void Host::installCallbacks() {
+    glfwSetKeyCallback(window_,
+                       [](GLFWwindow* w, int key, int scan_code, int action, int modifiers) {
+                           Events::of(w).key(w, key, scan_code, action, modifiers);
+                       });
+    glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned letter) {
+        Events::of(w).any = true;
+        ImGui_ImplGlfw_CharCallback(w, letter);
+    });
+    glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int modifiers) {
+        Events::of(w).any = true;
+        ImGui_ImplGlfw_MouseButtonCallback(w, button, action, modifiers);
+    });
+    glfwSetScrollCallback(window_, [](GLFWwindow* w, double x, double y) {
+        Events::of(w).any = true;
+        ImGui_ImplGlfw_ScrollCallback(w, x, y);
+    });
+    glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int entered) {
+        Events::of(w).any = true;
+        ImGui_ImplGlfw_CursorEnterCallback(w, entered);
+    });
+    glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int focused) {
+        Events::of(w).any = true;
+        ImGui_ImplGlfw_WindowFocusCallback(w, focused);
+    });
+    glfwSetCursorPosCallback(window_,
+                             [](GLFWwindow* w, double, double) { Events::of(w).any = true; });
+    glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { Events::of(w).any = true; });
+    glfwSetFramebufferSizeCallback(window_,
+                                   [](GLFWwindow* w, int, int) { Events::of(w).any = true; });
+    glfwSetWindowCloseCallback(window_, [](GLFWwindow* w) { Events::of(w).any = true; });
+    glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** paths) {
+        Events::of(w).any = true;
+        Events::of(w).dropped.assign(paths, paths + count);
+    });
 }
 
 Host::~Host() {
@@ -82,7 +125,8 @@ Host::~Host() {
 }
 
 bool Host::waitEvents(double wait_s) {
-    events_->any = false;
+    if (events_->any)
+        wait_s = 0.0;
     if (wait_s > 0.0)
         glfwWaitEventsTimeout(wait_s);
     else
@@ -94,6 +138,7 @@ void Host::beginPass() {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
+    events_->passBegun(window_);
 }
 
 void Host::discardPass() {

@@ -46,6 +46,8 @@ public:
 private:
     struct Events;
 
+    void installCallbacks();
+
     struct Placement {
         int x = 0;
         int y = 0;

@@ -237,13 +237,16 @@ void drawInspector(Ui ui, const PanelInput& input, WindowState& state, const Are
     const ImVec2 inner{area.size.x - 2 * margin, area.size.y - export_height - margin};
     const Lane* const lane = input.document.findLane(input.document.active_lane);
     ImGui::SetCursorScreenPos(area.position + ImVec2(margin, ui.px(10)));
-    ImGui::BeginChild("lane", {inner.x, std::max(1.0f, inner.y)});
+    // The scroll bar stands in the margin, so that both halves of the panel share one right edge.
+    ImGui::SetNextWindowContentSize({inner.x, 0});
+    ImGui::BeginChild("lane", {inner.x + ui.px(11), std::max(1.0f, inner.y)});
     if (lane) {
         drawLane(ui, input, state, *lane);
     } else {
         sectionTitle(ui, "Lane");
         ImGui::TextDisabled("Click a view to choose its lane.");
     }
+    fadeWhereMore(ui, color::kPanel);
     ImGui::EndChild();
     const float top = area.end().y - export_height;
     horizontalHairline(ui, area.position.x, area.end().x, top);

@@ -96,7 +96,7 @@ void drawRow(const Ui& ui,
     else if (ImGui::IsItemHovered())
         list.AddRectFilled(begin, end, color::kField);
     const float y = begin.y + (height - ImGui::GetTextLineHeight()) * 0.5f;
-    const std::string count = "\u00d7 " + formatShortCount(instances);
+    const std::string count = "\u00d7 " + formatCount(instances);
     ImFont* const small = ui.theme.fonts.small;
     const float name_width =
         at.instances_right - textWidth(ui, count, small) - ui.px(6) - at.name_x;
@@ -185,7 +185,7 @@ void drawSelection(const Ui& ui, const PanelInput& input) {
     const SelectionSummary summary = summarise(document);
     sectionTitle(ui, "Selection");
     if (summary.submeshes.empty()) {
-        ImGui::TextDisabled("Click a submesh to weigh or lock it.");
+        ImGui::TextDisabled("Click a submesh to weigh it.");
         return;
     }
     const std::string name = summary.submeshes.size() == 1
@@ -224,6 +224,7 @@ void drawScenePanel(Ui ui, const PanelInput& input, const Area& area) {
         ImGui::SetCursorScreenPos({area.position.x, list_top});
         ImGui::BeginChild("list", {area.size.x, list_height});
         drawList(ui, input, area.size.x - ui.theme.hairline());
+        fadeWhereMore(ui, color::kPanel);
         ImGui::EndChild();
         const ImVec2 below{area.position.x + ui.px(12), list_top + list_height + ui.px(16)};
         ImGui::SetCursorScreenPos(below);

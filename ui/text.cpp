@@ -155,6 +155,22 @@ void progressLine(const Ui& ui, const ImVec2& min, float width, double fraction,
         list.AddRectFilled(min, {min.x + filled, min.y + height}, colour, height * 0.5f);
 }
 
+void fadeWhereMore(const Ui& ui, ImU32 background) {
+    if (ImGui::GetScrollY() >= ImGui::GetScrollMaxY() - 1.0f)
+        return;
+    const ImVec2 begin = ImGui::GetWindowPos();
+    const ImVec2 end = begin + ImGui::GetWindowSize();
+    const ImU32 clear = background & 0x00ffffffu;
+    const ImVec2 top{begin.x, end.y - ui.px(28)};
+    ImGui::GetWindowDrawList()->AddRectFilledMultiColor(
+        top,
+        {end.x - ImGui::GetStyle().ScrollbarSize, end.y},
+        clear,
+        clear,
+        background,
+        background);
+}
+
 void spinner(const Ui& ui, const ImVec2& center, float radius, ImU32 colour) {
     constexpr float kTurnsPerSecond = 0.8f;
     constexpr float kTau = 6.2831853f;

@@ -21,7 +21,7 @@ constexpr std::array<SampleWords, 4> kSamples = {{
     {"maple", "Maple tree", "9,324 instances"},
     {"village", "Village", "13,523 instances"},
     {"chair", "Patio chair", "68 instances"},
-    {"bunny", "Bunny-like scan", "one closed mesh"},
+    {"bunny", "Bunny scan", "70 K triangles"},
 }};
 
 bool sampleCard(const Ui& ui, const SampleWords& sample, const ImVec2& size) {
@@ -68,9 +68,9 @@ void drawWelcome(Ui ui, const PanelInput& input, WindowState& state, const Area&
     if (!state.welcome)
         return;
     ui.panel = "Welcome";
-    const float width = std::min(ui.px(560), area.size.x - ui.px(24));
+    const float width = std::min(ui.px(640), area.size.x - ui.px(24));
     ImGui::SetNextWindowPos(
-        {area.position.x + area.size.x * 0.5f, area.end().y - ui.px(40)}, 0, {0.5f, 1.0f});
+        {area.position.x + area.size.x * 0.5f, area.end().y - ui.px(34)}, 0, {0.5f, 1.0f});
     ImGui::SetNextWindowSize({width, 0});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.px(4));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, ui.theme.hairline());
@@ -83,38 +83,29 @@ void drawWelcome(Ui ui, const PanelInput& input, WindowState& state, const Area&
     const ImVec2 begin = ImGui::GetCursorScreenPos();
     const float inner = width - ui.px(32);
     drawText(ui, begin, Align::Left, "Welcome to Lodestone", {ui.theme.fonts.semibold});
-    drawText(ui,
-             begin + ImVec2(0, ui.px(20)),
-             Align::Left,
-             fitText(ui,
-                     "Drag the slider above the views: every lane follows. Try another scene:",
-                     inner),
-             {nullptr, color::kSecondary});
+    drawText(
+        ui,
+        begin + ImVec2(0, ui.px(20)),
+        Align::Left,
+        fitText(
+            ui, "Drag the slider above the views: every lane follows. Try another scene:", inner),
+        {nullptr, color::kSecondary});
     ImGui::SetCursorScreenPos(begin + ImVec2(inner - textWidth(ui, "\u00d7"), 0));
     if (linkButton(ui, "\u00d7", color::kSecondary))
         state.welcome = false;
-    ImGui::SetCursorScreenPos(begin + ImVec2(0, ui.px(48)));
+    ImGui::SetCursorScreenPos(begin + ImVec2(0, ui.px(46)));
     const float spacing = ui.px(8);
-    const float card = (inner - 3 * spacing) / 4;
-    for (std::size_t at = 0; at < kSamples.size(); ++at) {
-        if (at > 0)
-            ImGui::SameLine(0, spacing);
-        if (sampleCard(ui, kSamples[at], {card, ui.px(52)})) {
-            ui.push(OpenSample{std::string(kSamples[at].name), 1});
+    const float card = (inner - 4 * spacing) / 5;
+    for (const SampleWords& sample : kSamples) {
+        if (sampleCard(ui, sample, {card, ui.px(50)})) {
+            ui.push(OpenSample{std::string(sample.name), 1});
             state.welcome = false;
         }
+        ImGui::SameLine(0, spacing);
     }
-    recentList(ui, input.document, state, inner);
-    ImGui::Dummy({0, ui.px(2)});
-    if (button(ui, "Open\u2026", ui.px(110)))
+    if (sampleCard(ui, {"Open\u2026", "Your file\u2026", "or drop it here"}, {card, ui.px(50)}))
         openBrowser(input, state);
-    ImGui::SameLine();
-    drawText(ui,
-             ImGui::GetCursorScreenPos() + ImVec2(ui.px(4), ui.px(5)),
-             Align::Left,
-             "or drop a file on the window",
-             {nullptr, color::kSecondary});
-    ImGui::NewLine();
+    recentList(ui, input.document, state, inner);
     ImGui::End();
     ImGui::PopStyleColor();
     ImGui::PopStyleVar(3);

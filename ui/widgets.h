@@ -39,6 +39,8 @@ void tooltip(const Ui& ui, std::string_view text);
 void horizontalHairline(const Ui& ui, float x_begin, float x_end, float y);
 void verticalHairline(const Ui& ui, float x, float y_begin, float y_end);
 void progressLine(const Ui& ui, const ImVec2& min, float width, double fraction, ImU32 colour);
+// At the lower edge of the present child window, where more of its content lies below.
+void fadeWhereMore(const Ui& ui, ImU32 background);
 void spinner(const Ui& ui, const ImVec2& center, float radius, ImU32 colour);
 
 // --- controls ---
