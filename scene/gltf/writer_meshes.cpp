@@ -15,18 +15,22 @@ namespace {
 
 constexpr std::uint32_t kPositions = kNone; // StreamPlan::attribute
 
-// Gives equal numbers to streams of equal bytes.
+// Numbers the contents of streams: one number for streams that the file stores once and whose bytes
+// are still equal. Equal bytes that the file stores twice stay two, so that simplifying one of them
+// never makes the export larger.
 class ContentNumbers {
 public:
+    // accessor: of the file, kNone if the stream is in no file; then it shares nothing.
     // kind: streams of different kinds never share an accessor.
-    std::uint32_t numberOf(const std::string& kind, std::span<const std::byte> bytes) {
-        std::vector<Known>& candidates = known_[{kind, bytes.size()}];
-        const std::uint64_t fingerprint = fingerprintOf(bytes);
+    std::uint32_t
+    numberOf(std::uint32_t accessor, const std::string& kind, std::span<const std::byte> bytes) {
+        if (accessor == kNone)
+            return next_++;
+        std::vector<Known>& candidates = known_[{accessor, kind}];
         for (const Known& known : candidates)
-            if (known.bytes.data() == bytes.data() ||
-                (known.fingerprint == fingerprint && std::ranges::equal(known.bytes, bytes)))
+            if (std::ranges::equal(known.bytes, bytes))
                 return known.number;
-        candidates.push_back({bytes, fingerprint, next_});
+        candidates.push_back({bytes, next_});
         return next_++;
     }
 
@@ -35,26 +39,26 @@ public:
 private:
     struct Known {
         std::span<const std::byte> bytes;
-        std::uint64_t fingerprint = 0;
         std::uint32_t number = 0;
     };
 
-    // Of up to 256 words taken evenly: enough to tell most streams apart without reading them.
-    static std::uint64_t fingerprintOf(std::span<const std::byte> bytes) {
-        std::uint64_t value = 0xcbf29ce484222325ULL;
-        const std::size_t words = bytes.size() / 4;
-        const std::size_t step = words / 256 + 1;
-        for (std::size_t w = 0; w < words; w += step) {
-            std::uint32_t word;
-            std::memcpy(&word, bytes.data() + w * 4, sizeof word);
-            value = (value ^ word) * 0x100000001b3ULL;
-        }
-        return value;
-    }
-
-    std::map<std::pair<std::string, std::size_t>, std::vector<Known>> known_;
+    std::map<std::pair<std::uint32_t, std::string>, std::vector<Known>> known_;
     std::uint32_t next_ = 0;
 };
+
+// The accessor that a member of `owner` names; kNone if there is none.
+std::uint32_t accessorAt(const json& owner, const std::string& key) {
+    const auto found = owner.is_object() ? owner.find(key) : owner.end();
+    return owner.is_object() && found != owner.end() && found->is_number_unsigned()
+               ? found->get<std::uint32_t>()
+               : kNone;
+}
+
+const json& memberOrNull(const json& owner, const char* key) {
+    static const json null;
+    const auto found = owner.is_object() ? owner.find(key) : owner.end();
+    return owner.is_object() && found != owner.end() ? *found : null;
+}
 
 std::string accessorType(std::uint32_t components) {
     switch (components) {
@@ -159,14 +163,20 @@ private:
         to.full = {static_cast<std::uint32_t>(geometry.positions.size()),
                    static_cast<std::uint32_t>(geometry.indices.size())};
         to.indexed = primitive.mode == PrimitiveMode::Triangles || to.full.indices > 0;
-        addPositions(to, primitive);
+        const json& attributes = memberOrNull(entry, "attributes");
+        addPositions(to, primitive, accessorAt(attributes, "POSITION"));
         for (std::uint32_t a = 0; a < geometry.attributes.size(); ++a)
-            addAttribute(to, geometry.attributes[a], a, kNone);
+            addAttribute(to, geometry.attributes[a], {attributes, a, kNone});
+        const json& targets = memberOrNull(entry, "targets");
+        static const json no_target;
         for (std::uint32_t t = 0; t < geometry.morph_targets.size(); ++t)
             for (std::uint32_t a = 0; a < geometry.morph_targets[t].attributes.size(); ++a)
-                addAttribute(to, geometry.morph_targets[t].attributes[a], a, t);
+                addAttribute(to,
+                             geometry.morph_targets[t].attributes[a],
+                             {t < targets.size() ? targets[t] : no_target, a, t});
         const bool wide = to.full.vertices > 65535;
-        to.index_content = contents_.numberOf(wide ? "index32" : "index16",
+        to.index_content = contents_.numberOf(accessorAt(entry, "indices"),
+                                              wide ? "index32" : "index16",
                                               std::as_bytes(std::span(geometry.indices)));
         to.first_stream = plan_.stream_count;
         plan_.stream_count += static_cast<std::uint32_t>(to.streams.size()) + 1;
@@ -174,7 +184,7 @@ private:
         return to;
     }
 
-    void addPositions(PrimitivePlan& to, const Primitive& primitive) {
+    void addPositions(PrimitivePlan& to, const Primitive& primitive, std::uint32_t accessor) {
         StreamPlan stream;
         stream.key = "\"POSITION\":";
         stream.format = formatOf(primitive.position_type, 3, primitive.position_normalized);
@@ -183,24 +193,30 @@ private:
         stream.component_count = 3;
         stream.bounds_width = numberWidth(primitive.position_type);
         stream.content = contents_.numberOf(
-            "p" + stream.format, std::as_bytes(std::span(primitive.geometry->positions)));
+            accessor, "p" + stream.format, std::as_bytes(std::span(primitive.geometry->positions)));
         to.streams.push_back(std::move(stream));
     }
 
-    void addAttribute(PrimitivePlan& to,
-                      const Attribute& attribute,
-                      std::uint32_t index,
-                      std::uint32_t target) {
+    // Where an attribute comes from.
+    struct Origin {
+        const json& accessors;   // by semantic
+        std::uint32_t index = 0; // among the geometry's or the target's
+        std::uint32_t target = kNone;
+    };
+
+    void addAttribute(PrimitivePlan& to, const Attribute& attribute, const Origin& origin) {
         StreamPlan stream;
         stream.key = dumpJson(attribute.semantic) + ":";
         stream.format = formatOf(attribute.type, attribute.components, attribute.normalized);
-        stream.attribute = index;
-        stream.target = target;
+        stream.attribute = origin.index;
+        stream.target = origin.target;
         stream.view_class = classOfStride(plan_, attribute.stride());
         stream.component_count = attribute.components;
         const bool bounded = attribute.semantic == "POSITION";
         stream.bounds_width = bounded ? numberWidth(attribute.type) : 0;
-        stream.content = contents_.numberOf((bounded ? "p" : "a") + stream.format, attribute.bytes);
+        stream.content = contents_.numberOf(accessorAt(origin.accessors, attribute.semantic),
+                                            (bounded ? "p" : "a") + stream.format,
+                                            attribute.bytes);
         to.streams.push_back(std::move(stream));
     }
 
