@@ -239,15 +239,13 @@ std::optional<fs::path> FileBrowser::draw(const Ui& ui, const ImVec2& size) {
         chosen = picked;
     const std::string hint =
         problem_.empty() ? "Type a path or a part of a name. Enter opens." : problem_;
-    ImGui::AlignTextToFramePadding();
-    const ImVec2 at = ImGui::GetCursorScreenPos() + ImVec2(0, ui.px(10));
+    const ImVec2 at = ImGui::GetCursorScreenPos();
     drawText(ui,
-             at,
+             at + ImVec2(0, ui.px(12)),
              Align::Left,
-             fitText(ui, hint, size.x - ui.px(200)),
+             fitText(ui, hint, size.x - ui.px(120)),
              {nullptr, problem_.empty() ? color::kSecondary : color::kError});
-    ImGui::SameLine(size.x - ui.px(84));
-    ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ui.px(4));
+    ImGui::SetCursorScreenPos(at + ImVec2(size.x - ui.px(92), ui.px(4)));
     ImGui::BeginDisabled(typed_.empty());
     if (primaryButton(ui, "Open", ui.px(92)))
         chosen = acceptTyped();

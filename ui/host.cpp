@@ -17,24 +17,23 @@ struct Host::Events {
     bool any = false;
     std::vector<std::filesystem::path> dropped;
 
-    // A key that went down and up between two passes would never be seen down: its release waits.
+    // A key that goes down and up between two passes would never be seen down: releases wait.
     std::vector<std::array<int, 3>> waiting_releases; // key, scan code, modifiers
-    std::vector<int> pressed;                         // since the last pass
+    bool pressed = false;                             // any key since the last pass
 
     void key(GLFWwindow* window, int key, int scan_code, int action, int modifiers) {
         any = true;
-        if (action == GLFW_RELEASE &&
-            std::find(pressed.begin(), pressed.end(), key) != pressed.end()) {
+        if (action == GLFW_RELEASE && pressed) { // whatever key: Ctrl must outlive the O of Ctrl+O
             waiting_releases.push_back({key, scan_code, modifiers});
             return;
         }
         if (action == GLFW_PRESS)
-            pressed.push_back(key);
+            pressed = true;
         ImGui_ImplGlfw_KeyCallback(window, key, scan_code, action, modifiers);
     }
 
     void passBegun(GLFWwindow* window) {
-        pressed.clear();
+        pressed = false;
         any = any || !waiting_releases.empty();
         for (const auto& [key, scan_code, modifiers] : std::exchange(waiting_releases, {}))
             ImGui_ImplGlfw_KeyCallback(window, key, scan_code, GLFW_RELEASE, modifiers);
