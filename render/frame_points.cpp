@@ -35,15 +35,25 @@ struct Extremes {
     double radius = 0.0;
 };
 
-// The vertices that indices use: what an instance shows.
-std::vector<glm::vec3> drawnVertices(const Submesh& submesh) {
+bool hasTriangles(const Scene& scene) {
+    return std::any_of(scene.instances.begin(), scene.instances.end(), [&](const Instance& one) {
+        return triangleCount(scene.submeshes[one.submesh]) > 0;
+    });
+}
+
+// Points and lines count where there is nothing else: a stray line is not worth a distant view.
+enum class Counted : std::uint8_t { Triangles, Everything };
+
+// The vertices that an instance shows.
+std::vector<glm::vec3> drawnVertices(const Submesh& submesh, Counted counted) {
     std::vector<glm::vec3> vertices;
     for (const Primitive& primitive : submesh.primitives) {
         const Geometry& geometry = *primitive.geometry;
-        if (geometry.indices.empty()) {
-            if (primitive.mode != PrimitiveMode::Triangles)
-                vertices.insert(
-                    vertices.end(), geometry.positions.begin(), geometry.positions.end());
+        const bool is_triangles = primitive.mode == PrimitiveMode::Triangles;
+        if (!is_triangles && counted == Counted::Triangles)
+            continue;
+        if (!is_triangles && geometry.indices.empty()) {
+            vertices.insert(vertices.end(), geometry.positions.begin(), geometry.positions.end());
             continue;
         }
         std::vector<bool> used(geometry.positions.size(), false);
@@ -56,8 +66,8 @@ std::vector<glm::vec3> drawnVertices(const Submesh& submesh) {
     return vertices;
 }
 
-Extremes extremesOf(const Submesh& submesh) {
-    const std::vector<glm::vec3> vertices = drawnVertices(submesh);
+Extremes extremesOf(const Submesh& submesh, Counted counted) {
+    const std::vector<glm::vec3> vertices = drawnVertices(submesh, counted);
     Extremes extremes;
     std::vector<std::size_t> kept;
     if (vertices.size() <= kAllKept) {
@@ -125,9 +135,10 @@ FramePoints framePoints(const Scene& scene, const Bounds& bounds) {
     frame.bounds = bounds;
     if (bounds.empty)
         return frame;
+    const Counted counted = hasTriangles(scene) ? Counted::Triangles : Counted::Everything;
     std::vector<Extremes> extremes(scene.submeshes.size());
     tbb::parallel_for(std::size_t(0), extremes.size(), [&](std::size_t s) {
-        extremes[s] = extremesOf(scene.submeshes[s]);
+        extremes[s] = extremesOf(scene.submeshes[s], counted);
     });
     std::vector<Ball> balls(scene.instances.size());
     for (std::size_t i = 0; i < balls.size(); ++i)

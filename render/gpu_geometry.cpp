@@ -1,6 +1,7 @@
 #include "render/gpu_geometry.h"
 
 #include "render/renderer_state.h"
+#include "render/smooth_normals.h"
 
 #include <algorithm>
 #include <cmath>
@@ -128,15 +129,15 @@ LocalFrame localFrame(const Submesh& submesh) {
     return frame;
 }
 
-std::shared_ptr<const GpuGeometry> uploadGeometry(const GeometryPtr& geometry,
-                                                  const LocalFrame& frame) {
-    auto gpu = std::make_shared<GpuGeometry>();
-    gpu->source = geometry;
-    const Attribute* normal = usable(*geometry, "NORMAL", 3);
-    const Attribute* uv0 = usable(*geometry, "TEXCOORD_0", 2);
-    const Attribute* uv1 = usable(*geometry, "TEXCOORD_1", 2);
-    const Attribute* color = usable(*geometry, "COLOR_0", 3);
-    VertexLayout& layout = gpu->layout;
+namespace {
+
+// Fills vertices and layout.
+void uploadVertices(const Geometry& geometry, const LocalFrame& frame, GpuGeometry& gpu) {
+    const Attribute* normal = usable(geometry, "NORMAL", 3);
+    const Attribute* uv0 = usable(geometry, "TEXCOORD_0", 2);
+    const Attribute* uv1 = usable(geometry, "TEXCOORD_1", 2);
+    const Attribute* color = usable(geometry, "COLOR_0", 3);
+    VertexLayout& layout = gpu.layout;
     std::size_t stride = sizeof(glm::vec3);
     const auto reserve = [&](const Attribute* attribute, Feature feature, std::size_t size_bytes) {
         const std::size_t offset = stride;
@@ -152,8 +153,8 @@ std::shared_ptr<const GpuGeometry> uploadGeometry(const GeometryPtr& geometry,
     layout.color_offset = reserve(color, kHasColor, 4 * sizeof(std::uint16_t));
     layout.stride_bytes = static_cast<GLsizei>(stride);
 
-    std::vector<std::byte> bytes(stride * geometry->positions.size());
-    putPositions({bytes, stride, 0}, *geometry, frame);
+    std::vector<std::byte> bytes(stride * geometry.positions.size());
+    putPositions({bytes, stride, 0}, geometry, frame);
     if (normal != nullptr)
         putFloats({bytes, stride, layout.normal_offset}, *normal, 3);
     if (uv0 != nullptr)
@@ -163,13 +164,30 @@ std::shared_ptr<const GpuGeometry> uploadGeometry(const GeometryPtr& geometry,
     if (color != nullptr)
         putColors({bytes, stride, layout.color_offset}, *color);
 
-    gpu->vertex_count = static_cast<std::uint32_t>(geometry->positions.size());
-    gpu->bytes = bytes.size();
-    gpu->vertices = GlBuffer::create();
-    glBindBuffer(GL_ARRAY_BUFFER, gpu->vertices.name());
+    gpu.vertex_count = static_cast<std::uint32_t>(geometry.positions.size());
+    gpu.bytes = bytes.size();
+    gpu.vertices = GlBuffer::create();
+    glBindBuffer(GL_ARRAY_BUFFER, gpu.vertices.name());
     glBufferData(
         GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes.size()), bytes.data(), GL_STATIC_DRAW);
-    uploadIndices(*geometry, *gpu);
+}
+
+} // namespace
+
+bool lacksNormals(const Geometry& geometry, PrimitiveMode mode) {
+    return mode == PrimitiveMode::Triangles && usable(geometry, "NORMAL", 3) == nullptr;
+}
+
+std::shared_ptr<const GpuGeometry>
+uploadGeometry(const GeometryPtr& source, const LocalFrame& frame, const GeometryWish& wish) {
+    auto gpu = std::make_shared<GpuGeometry>();
+    gpu->source = source;
+    const bool smooth =
+        wish.missing_normals == MissingNormals::Smooth && lacksNormals(*source, wish.mode);
+    const Geometry smoothed = smooth ? withSmoothNormals(*source) : Geometry();
+    const Geometry& geometry = smooth ? smoothed : *source;
+    uploadVertices(geometry, frame, *gpu);
+    uploadIndices(geometry, *gpu);
     return gpu;
 }
 

@@ -39,8 +39,18 @@ struct GpuGeometry {
     std::uint64_t bytes = 0;
 };
 
-std::shared_ptr<const GpuGeometry> uploadGeometry(const GeometryPtr& geometry,
-                                                  const LocalFrame& frame);
+enum class MissingNormals : std::uint8_t { LeaveOut, Smooth };
+
+// Smooth: a triangle list without usable NORMAL gets normals (see smooth_normals.h).
+struct GeometryWish {
+    PrimitiveMode mode = PrimitiveMode::Triangles;
+    MissingNormals missing_normals = MissingNormals::LeaveOut;
+};
+
+bool lacksNormals(const Geometry& geometry, PrimitiveMode mode);
+
+std::shared_ptr<const GpuGeometry>
+uploadGeometry(const GeometryPtr& source, const LocalFrame& frame, const GeometryWish& wish);
 
 // World to scene units: (p - center) / radius.
 struct SceneFrame {

@@ -10,6 +10,9 @@ namespace lodestone {
 
 namespace {
 
+// More new triangles without normals than that in one update are shown faceted: no frame waits.
+constexpr std::uint64_t kMostSmoothed = 500'000;
+
 // Evenly spread hues, muted; neighbours in the list differ clearly.
 glm::vec4 submeshColor(std::uint32_t index) {
     const double hue = std::fmod(0.12 + index * 0.6180339887498949, 1.0) * 6.0;
@@ -171,12 +174,19 @@ Result<void> GpuSceneState::check(const Lod& lod) const {
     return {};
 }
 
-std::shared_ptr<const GpuGeometry> GpuSceneState::geometry(const GeometryPtr& source,
-                                                           std::uint32_t submesh) {
+std::shared_ptr<const GpuGeometry>
+GpuSceneState::geometry(const GeometryPtr& source, std::uint32_t submesh, PrimitiveMode mode) {
     std::weak_ptr<const GpuGeometry>& cached = geometries_[{source.get(), submesh}];
     if (std::shared_ptr<const GpuGeometry> alive = cached.lock())
         return alive;
-    std::shared_ptr<const GpuGeometry> made = uploadGeometry(source, submeshes[submesh].frame);
+    GeometryWish wish{mode, MissingNormals::LeaveOut};
+    if (lacksNormals(*source, mode) &&
+        smoothed_triangles_ + source->triangleCount() <= kMostSmoothed) {
+        wish.missing_normals = MissingNormals::Smooth;
+        smoothed_triangles_ += source->triangleCount();
+    }
+    std::shared_ptr<const GpuGeometry> made =
+        uploadGeometry(source, submeshes[submesh].frame, wish);
     cached = made;
     ++report_.geometries;
     report_.bytes += made->bytes;
@@ -207,6 +217,7 @@ Result<UploadReport> GpuSceneState::update(std::unique_ptr<LodState>& handle, co
     if (Result<void> checked = check(lod); !checked)
         return tl::unexpected(checked.error());
     report_ = {};
+    smoothed_triangles_ = 0;
     // Items of the last update by place, so that unchanged ones keep their vertex array.
     std::map<std::pair<std::uint32_t, const GpuGeometry*>, DrawItem*> last;
     if (handle)
@@ -227,7 +238,7 @@ Result<UploadReport> GpuSceneState::update(std::unique_ptr<LodState>& handle, co
             if (shape.positions.empty() || (is_list && shape.indices.size() < 3))
                 continue;
             DrawItem item;
-            item.geometry = geometry(submesh.primitives[p], s);
+            item.geometry = geometry(submesh.primitives[p], s, primitive.mode);
             item.instances = instances(s, submesh.instance_order);
             item.submesh = s;
             item.mode = primitive.mode;

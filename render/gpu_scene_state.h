@@ -82,7 +82,8 @@ private:
     void openSubmeshes();
     void openMaterials();
     Result<void> check(const Lod& lod) const;
-    std::shared_ptr<const GpuGeometry> geometry(const GeometryPtr& source, std::uint32_t submesh);
+    std::shared_ptr<const GpuGeometry>
+    geometry(const GeometryPtr& source, std::uint32_t submesh, PrimitiveMode mode);
     std::shared_ptr<const InstanceBuffer>
     instances(std::uint32_t submesh,
               const std::shared_ptr<const std::vector<std::uint32_t>>& order);
@@ -94,7 +95,8 @@ private:
     using Cache = std::map<std::pair<const Key*, std::uint32_t>, std::weak_ptr<const Value>>;
     Cache<Geometry, GpuGeometry> geometries_;
     Cache<std::vector<std::uint32_t>, InstanceBuffer> instances_;
-    UploadReport report_; // of the update that is running
+    std::uint64_t smoothed_triangles_ = 0; // by the update that is running
+    UploadReport report_;                  // of the update that is running
 };
 
 } // namespace lodestone

@@ -18,9 +18,9 @@ uniform float cull_back;    // 1: back faces of mixed mirrored instances are dro
 
 out vec4 picture;
 
-const vec3 kSky = vec3(0.62, 0.68, 0.78);
-const vec3 kGround = vec3(0.30, 0.27, 0.24);
-const vec3 kKey = vec3(2.15, 2.05, 1.90);
+const vec3 kSky = vec3(0.46, 0.52, 0.62);
+const vec3 kGround = vec3(0.22, 0.19, 0.17);
+const vec3 kKey = vec3(2.30, 2.17, 1.98);
 const float kPi = 3.14159265;
 
 vec3 toSrgb(vec3 linear) {
@@ -29,9 +29,9 @@ vec3 toSrgb(vec3 linear) {
     return mix(low, high, step(vec3(0.0031308), linear));
 }
 
-// Leaves colours below 0.7 as they are and rolls highlights off towards white.
+// Leaves colours below 0.5 as they are and rolls highlights off towards white.
 vec3 toneMap(vec3 color) {
-    const float kStart = 0.7;
+    const float kStart = 0.5;
     float peak = max(color.r, max(color.g, color.b));
     if (peak <= kStart)
         return color;
@@ -150,7 +150,7 @@ vec3 litColor(vec3 base, vec3 n) {
     const float kWrap = 0.18;
     float lit = max(n_l + kWrap, 0.0) / (1.0 + kWrap);
     vec3 color = diffuse * (hemisphere(n) * occlusion + kKey * (lit / kPi * 1.25));
-    color += diffuse * 0.22 * max(dot(n, v), 0.0) * occlusion; // light at the camera
+    color += diffuse * 0.12 * max(dot(n, v), 0.0) * occlusion; // light at the camera
 
     vec3 h = normalize(l + v);
     float n_h = max(dot(n, h), 0.0);

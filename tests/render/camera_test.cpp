@@ -91,6 +91,19 @@ TEST(OrbitCamera, FramingLeavesOutVerticesBeyondTheBounds) {
         EXPECT_LE(point.y, 2.0 + 1e-3);
 }
 
+TEST(OrbitCamera, FramingLooksPastStrayLinesUnlessThereIsNothingElse) {
+    auto lines = std::make_shared<Geometry>();
+    lines->positions = {{90, 0, 0}, {91, 0, 0}};
+    auto scene = std::make_shared<Scene>(*tripods());
+    scene->submeshes.push_back({"line", {{PrimitiveMode::Lines, lines}}});
+    scene->instances.emplace_back();
+    scene->instances.back().submesh = 1;
+    for (const glm::dvec3& point : framePoints(*scene).points)
+        EXPECT_LT(point.x, 10.0);
+    scene->instances.erase(scene->instances.begin(), scene->instances.begin() + 2);
+    EXPECT_EQ(framePoints(*scene).points.size(), 200u);
+}
+
 TEST(OrbitCamera, FramingNothingOrAPointStillLooksSomewhere) {
     OrbitCamera camera;
     frameCamera(camera, FramePoints{}, 1.5);
