@@ -1,0 +1,160 @@
+// lodestone_bench: every promised figure, measured beside its peers, as Markdown.
+#include "bench/meshoptimizer_peer.h"
+#include "bench/rows.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <fmt/core.h>
+#include <fstream>
+#include <iostream>
+#include <tbb/info.h>
+
+namespace lodestone::bench {
+
+namespace {
+
+struct Section {
+    std::string title;
+    std::function<Result<void>(Bench&)> add;
+};
+
+// A section over one scene; without the scene it is left out and said so.
+Section sceneSection(const std::string& title,
+                     std::function<Result<ScenePtr>(Inputs&)> find,
+                     std::function<Result<void>(Bench&, const ScenePtr&)> add) {
+    return {title, [=](Bench& bench) -> Result<void> {
+                const Result<ScenePtr> scene = find(bench.inputs);
+                if (!scene)
+                    return tl::unexpected(scene.error());
+                if (*scene)
+                    return add(bench, *scene);
+                bench.table.tell("not measured: no such input", "");
+                return {};
+            }};
+}
+
+// The same rows for our own scene and, if a folder is given, for the one in it.
+void addBoth(std::vector<Section>& sections,
+             const std::string& title,
+             const std::string& name,
+             const std::function<Result<void>(Bench&, const ScenePtr&)>& add,
+             const std::string& given_folder) {
+    sections.push_back(sceneSection(
+        title, [name](Inputs& inputs) { return inputs.own(name); }, add));
+    if (!given_folder.empty())
+        sections.push_back(sceneSection(
+            title + " (given)", [name](Inputs& inputs) { return inputs.given(name); }, add));
+}
+
+std::vector<Section> allSections(const std::string& given) {
+    const auto bunny = [](Bench& bench, const ScenePtr& scene) {
+        return addAloneRows(bench, scene, bunnyTargets());
+    };
+    std::vector<Section> sections{sceneSection(
+        "Stanford bunny", [](Inputs& inputs) { return inputs.stanfordBunny(); }, bunny)};
+    addBoth(sections, "Our bunny", "bunny", bunny, "");
+    addBoth(
+        sections,
+        "Displaced sphere",
+        "sphere",
+        [](Bench& bench, const ScenePtr& scene) {
+            return addAloneRows(bench, scene, sphereTargets());
+        },
+        given);
+    addBoth(
+        sections,
+        "Maple",
+        "maple",
+        [](Bench& bench, const ScenePtr& scene) {
+            return addInstancedRows(bench, scene, mapleTargets());
+        },
+        given);
+    addBoth(
+        sections,
+        "Village",
+        "village",
+        [](Bench& bench, const ScenePtr& scene) {
+            return addInstancedRows(bench, scene, villageTargets());
+        },
+        given);
+    addBoth(sections, "Maple at equal triangles", "maple", addEqualRows, given);
+    addBoth(sections, "Village at equal triangles", "village", addEqualRows, given);
+    addBoth(sections, "Leaf cards", "cards", addCardRows, given);
+    sections.push_back({"Read-out", addReadOutRows});
+    sections.push_back({"Files and schedules", addFileRows});
+    sections.push_back({"Memory", addMemoryRows});
+    return sections;
+}
+
+std::string lowered(std::string text) {
+    std::ranges::transform(text, text.begin(), [](unsigned char letter) {
+        return static_cast<char>(std::tolower(letter));
+    });
+    return text;
+}
+
+struct Options {
+    std::string out;
+    std::string only;
+    std::string given;
+    std::string models = LODESTONE_SOURCE_DIR "/../shared/models";
+    bool quick = false;
+    bool memory_child = false;
+};
+
+int run(const Options& options) {
+    std::ofstream file;
+    if (!options.out.empty()) {
+        file.open(options.out);
+        if (!file) {
+            std::cerr << "error: " << options.out << ": cannot be written\n";
+            return exitCode(ErrorKind::Failed);
+        }
+    }
+    Bench bench{Inputs(options.models, options.given),
+                Table(options.out.empty() ? std::cout : file),
+                options.quick ? 3 : 5};
+    (options.out.empty() ? std::cout : file)
+        << "# Figures\n\n"
+        << fmt::format(
+               "Times are CPU seconds on one thread, median (min–max) of {} rounds in which "
+               "what is compared takes turns; ratios are medians over the rounds. Read-outs "
+               "are wall time on two threads. Distances are % of the diagonal, 300,000 "
+               "samples a side. Hardware threads: {}. Peer: {}.\n",
+               bench.rounds,
+               tbb::info::default_concurrency(),
+               meshoptimizerName());
+    int code = 0;
+    for (const Section& section : allSections(options.given)) {
+        if (lowered(section.title).find(lowered(options.only)) == std::string::npos)
+            continue;
+        std::cerr << section.title << '\n';
+        bench.table.heading(section.title);
+        const Result<void> added = section.add(bench);
+        if (!added) {
+            std::cerr << "error: " << section.title << ": " << added.error().message << '\n';
+            code = exitCode(added.error().kind);
+        }
+    }
+    bench.table.finish();
+    return code;
+}
+
+} // namespace
+
+} // namespace lodestone::bench
+
+int main(int argc, char** argv) {
+    lodestone::bench::Options options;
+    CLI::App app("Re-runs every promised figure beside its peers; Markdown on stdout.");
+    app.add_option("--out", options.out, "write to this file instead of stdout");
+    app.add_option("--only", options.only, "only sections whose title contains this");
+    app.add_option(
+        "--inputs", options.given, "measure maple, village, cards, sphere .glb of this folder too");
+    app.add_option("--models", options.models, "folder of real models")->capture_default_str();
+    app.add_flag("--quick", options.quick, "3 rounds instead of 5");
+    app.add_flag("--memory-child", options.memory_child)->group("");
+    CLI11_PARSE(app, argc, argv);
+    return options.memory_child ? lodestone::bench::runMemoryChild()
+                                : lodestone::bench::run(options);
+}

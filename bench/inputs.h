@@ -1,0 +1,38 @@
+#pragma once
+// The scenes that are measured.
+#include "scene/result.h"
+#include "scene/scene.h"
+
+#include <filesystem>
+#include <map>
+
+namespace lodestone::bench {
+
+// Makes or reads each scene once.
+class Inputs {
+public:
+    // models: the folder of real models, may be absent. given: folder with NAME.glb to measure as
+    // well, empty: none.
+    Inputs(std::filesystem::path models, std::filesystem::path given);
+
+    // Generated: "bunny", "maple", "village", "sphere", "cards".
+    Result<ScenePtr> own(const std::string& name);
+    // GIVEN/NAME.glb; null where there is none.
+    Result<ScenePtr> given(const std::string& name);
+    // The Stanford bunny; null without the models.
+    Result<ScenePtr> stanfordBunny();
+
+private:
+    std::filesystem::path models_;
+    std::filesystem::path given_;
+    std::map<std::string, ScenePtr> made_;
+};
+
+// A unit cube sphere with fractal bumps: 12 * side^2 triangles, closed, positions only.
+ScenePtr displacedSphere(std::uint32_t side);
+
+// A trunk under 40,000 leaves of four triangles each: 161,920 triangles, nearly all of them below
+// what edge collapses may touch.
+ScenePtr leafCards();
+
+} // namespace lodestone::bench

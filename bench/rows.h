@@ -1,0 +1,91 @@
+#pragma once
+// The groups of rows. Each adds its rows to the table under a heading that is already there.
+// Errors: those of importing, simplifying and measuring.
+#include "bench/inputs.h"
+#include "bench/table.h"
+#include "simplify/lod_source.h"
+
+namespace lodestone::bench {
+
+struct Bench {
+    Inputs inputs;
+    Table table;
+    int rounds = 5; // of things timed in turns
+};
+
+// What an early sketch of this design reached on a scene (seconds for the whole sequence, errors at
+// 20 % of the triangles). Its machine is known by what meshoptimizer took there.
+struct Sketch {
+    double seconds = 0.0;
+    double triangles = 0.0;        // that were simplified
+    double anchor_seconds = 0.0;   // meshoptimizer there, to 20 % of the mesh used here as anchor
+    std::uint64_t unique_left = 0; // at 20 %
+    std::string hausdorff;         // % of the diagonal, as it was printed
+    std::string mean;
+};
+
+// meshoptimizer's seconds in the sketch's run.
+constexpr double kSketchBunnySeconds = 0.028;
+constexpr double kSketchSphereSeconds = 0.50;
+
+// --- one mesh against meshoptimizer
+
+struct AloneTargets {
+    double time_ratio = 0.0;
+    double mean_ratio = 0.0;
+    std::optional<double> maximum_ratio;
+    Sketch sketch;
+};
+
+AloneTargets bunnyTargets();
+AloneTargets sphereTargets();
+Result<void> addAloneRows(Bench& bench, const ScenePtr& scene, const AloneTargets& targets);
+
+// --- instanced scenes: IAS against Quadric on the expansion
+
+struct InstancedTargets {
+    double speedup = 0.0; // of IAS over Quadric on the expanded scene
+    Sketch by_triangle;
+    Sketch by_cost;
+    std::optional<Sketch> expanded;
+};
+
+InstancedTargets mapleTargets();
+InstancedTargets villageTargets();
+Result<void> addInstancedRows(Bench& bench, const ScenePtr& scene, const InstancedTargets& targets);
+
+// IAS against each mesh alone, at equal instanced triangles.
+Result<void> addEqualRows(Bench& bench, const ScenePtr& scene);
+
+// Leaves that edge collapse may not touch.
+Result<void> addCardRows(Bench& bench, const ScenePtr& scene);
+
+// --- in the program
+
+Result<void> addReadOutRows(Bench& bench); // after a slider has moved
+Result<void> addFileRows(Bench& bench);    // sizes, import, another ordering
+Result<void> addMemoryRows(Bench& bench);  // peak of a process of its own
+
+// What that process does; prints its peak in bytes. Returns its exit code.
+int runMemoryChild();
+
+// --- what they share
+
+// expanded: a scene of which every submesh is drawn once. Whole sequence and schedule.
+Result<LodSourcePtr> prepareQuadric(const ScenePtr& expanded);
+Result<LodSourcePtr> prepareIas(const ScenePtr& scene, Ordering ordering);
+
+// meshoptimizer to 20 % of a scene of one mesh, equal positions welded beforehand.
+Work meshoptimizerWork(const ScenePtr& scene);
+
+// One row: seconds per simplified triangle over the anchor's seconds, against the sketch's.
+// seconds, anchor_seconds: [rounds]
+void addSketchTime(Table& table,
+                   const Sketch& sketch,
+                   std::uint64_t triangles,
+                   std::span<const std::vector<double>> seconds_and_anchor);
+
+// Rows: triangles left, maximum and mean at 20 %, against the sketch's.
+Result<Lod> addSketchQuality(Table& table, const LodSource& source, const Sketch& sketch);
+
+} // namespace lodestone::bench

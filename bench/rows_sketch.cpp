@@ -1,0 +1,85 @@
+#include "bench/meshoptimizer_peer.h"
+#include "bench/quality.h"
+#include "bench/rows.h"
+#include "simplify/collapse/parameters.h"
+#include "simplify/ias/ias.h"
+#include "simplify/quadric/quadric.h"
+
+#include <cmath>
+#include <fmt/core.h>
+
+namespace lodestone::bench {
+
+Result<LodSourcePtr> prepareQuadric(const ScenePtr& expanded) {
+    Result<EdgeCollapseOptions> options = readCollapseParameters(quadricAlgorithm(), {});
+    if (!options)
+        return tl::unexpected(options.error());
+    options->remove_instances = false; // as its row does
+    return prepareEdgeCollapse(expanded, *options, {}, {});
+}
+
+Result<LodSourcePtr> prepareIas(const ScenePtr& scene, Ordering ordering) {
+    return iasAlgorithm().prepare(scene, {}, {ordering, {}, {}}, {});
+}
+
+Work meshoptimizerWork(const ScenePtr& scene) {
+    auto welded = std::make_shared<const Geometry>(
+        weldPositions(*scene->submeshes.front().primitives.front().geometry));
+    return [welded]() -> Result<std::shared_ptr<const void>> {
+        return std::make_shared<const std::vector<std::uint32_t>>(
+            meshoptimizerSimplify(*welded, 0.2));
+    };
+}
+
+void addSketchTime(Table& table,
+                   const Sketch& sketch,
+                   std::uint64_t triangles,
+                   std::span<const std::vector<double>> seconds_and_anchor) {
+    const double ratio = medianRatio(seconds_and_anchor[0], seconds_and_anchor[1]) /
+                         static_cast<double>(triangles) /
+                         (sketch.seconds / sketch.anchor_seconds / sketch.triangles);
+    const Spread seconds = spreadOf(seconds_and_anchor[0]);
+    table.ratioAtMost("whole sequence, over meshoptimizer's time and per unique triangle",
+                      {ratio,
+                       1.0,
+                       fmt::format("{}, {:.3f} µs a triangle",
+                                   secondsText(seconds),
+                                   1e6 * seconds.median / static_cast<double>(triangles)),
+                       fmt::format("sketch: {}, {:.3f} µs a triangle",
+                                   secondsText(sketch.seconds),
+                                   1e6 * sketch.seconds / sketch.triangles)});
+}
+
+namespace {
+
+// Met if the value, rounded as the sketch's was printed, is no larger.
+void addSketchError(Table& table,
+                    const std::string& what,
+                    double value,
+                    const std::string& printed) {
+    const auto decimals = static_cast<int>(printed.size() - printed.find('.') - 1);
+    const double rounding = 0.5 * std::pow(10.0, -decimals);
+    table.atMost(
+        what, {value, std::stod(printed) + rounding, percentText(value), printed + " %", "sketch"});
+}
+
+} // namespace
+
+Result<Lod> addSketchQuality(Table& table, const LodSource& source, const Sketch& sketch) {
+    const double full = static_cast<double>(source.trianglesAt(0));
+    Lod lod = lodAtTriangles(source, 0.2 * full);
+    const Result<Distance> distance = distanceToFull({source.scene().get(), &lod});
+    if (!distance)
+        return tl::unexpected(distance.error());
+    table.tell("at 20 %: unique triangles, instances left",
+               fmt::format("{}, {} of {}",
+                           countText(lod.unique_triangles),
+                           countText(lod.instances),
+                           countText(source.scene()->instances.size())),
+               fmt::format("sketch: {}", countText(sketch.unique_left)));
+    addSketchError(table, "at 20 %: maximum distance", distance->hausdorff, sketch.hausdorff);
+    addSketchError(table, "at 20 %: mean distance", distance->mean, sketch.mean);
+    return lod;
+}
+
+} // namespace lodestone::bench
