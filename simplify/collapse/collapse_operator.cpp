@@ -142,8 +142,7 @@ void ComponentMesh::dropReference(std::uint32_t v, std::uint32_t face) {
     const auto begin = refs_.begin() + ring.begin;
     const auto at = std::find(begin, begin + ring.count, face);
     assert(at != begin + ring.count);
-    std::copy(at + 1, begin + ring.count, at); // order kept: results stay reproducible
-    --ring.count;
+    *at = *(begin + --ring.count);
 }
 
 void ComponentMesh::killFace(std::uint32_t face) {

@@ -117,7 +117,13 @@ struct Welder {
     }
 };
 
-void addPrimitive(Welder& welder, const Geometry& geometry) {
+// True once every kCheckEvery rounds if the job is to stop: loops over millions look that often.
+bool stopsAt(std::size_t round, const JobContext& job) {
+    constexpr std::size_t kCheckEvery = 65'536;
+    return round % kCheckEvery == 0 && job.stopRequested();
+}
+
+void addPrimitive(Welder& welder, const Geometry& geometry, const JobContext& job) {
     Complex& complex = welder.complex;
     const auto primitive_begin = static_cast<std::uint32_t>(complex.wedge_source.size());
     std::vector<std::uint32_t> wedge_of(geometry.positions.size(), kNone);
@@ -126,12 +132,16 @@ void addPrimitive(Welder& welder, const Geometry& geometry) {
         used[index] = true;
     BlockCursor cursor(geometry.weld_blocks);
     for (std::uint32_t v = 0; v < geometry.positions.size(); ++v) {
+        if (stopsAt(v, job))
+            return;
         if (!used[v])
             continue;
         const std::uint32_t vertex = welder.weldVertex(geometry.positions[v], cursor.at(v));
         wedge_of[v] = welder.addWedge(geometry, v, vertex, primitive_begin);
     }
     for (std::size_t t = 0; t < geometry.triangleCount(); ++t) {
+        if (stopsAt(t, job))
+            return;
         std::array<std::uint32_t, 3> face;
         for (std::size_t k = 0; k < 3; ++k)
             face[k] = wedge_of[geometry.indices[3 * t + k]];
@@ -147,7 +157,7 @@ void addPrimitive(Welder& welder, const Geometry& geometry) {
 
 // Removes faces that repeat another one of the same primitive: same vertices, same orientation.
 // Faces are compared within the bucket of their smallest vertex.
-void dropDoubles(Complex& complex, std::uint32_t begin) {
+void dropDoubles(Complex& complex, std::uint32_t begin, const JobContext& job) {
     const auto cornersOf = [&](std::uint32_t f) {
         std::array<std::uint32_t, 3> v;
         for (std::size_t k = 0; k < 3; ++k)
@@ -170,6 +180,8 @@ void dropDoubles(Complex& complex, std::uint32_t begin) {
     std::vector<Sides> bucket(end - begin); // filled from each bucket's front
     std::uint32_t kept = begin;
     for (std::uint32_t f = begin; f < end; ++f) {
+        if (stopsAt(f, job))
+            return;
         const auto [first, second, third] = cornersOf(f);
         const Sides sides{second, third};
         std::uint32_t slot = at[first];
@@ -231,7 +243,7 @@ std::size_t Complex::primitiveOfFace(std::uint32_t face) const {
     return static_cast<std::size_t>(after - face_begin.begin()) - 1;
 }
 
-Complex buildComplex(const Submesh& submesh) {
+Complex buildComplex(const Submesh& submesh, const JobContext& job) {
     Complex complex;
     std::size_t vertex_count = 0;
     for (const Primitive& primitive : submesh.primitives)
@@ -242,13 +254,14 @@ Complex buildComplex(const Submesh& submesh) {
     for (const Primitive& primitive : submesh.primitives) {
         if (primitive.mode == PrimitiveMode::Triangles) {
             const auto begin = static_cast<std::uint32_t>(complex.faces.size());
-            addPrimitive(welder, *primitive.geometry);
-            dropDoubles(complex, begin);
+            addPrimitive(welder, *primitive.geometry, job);
+            dropDoubles(complex, begin, job);
         }
         complex.wedge_begin.push_back(static_cast<std::uint32_t>(complex.wedge_source.size()));
         complex.face_begin.push_back(static_cast<std::uint32_t>(complex.faces.size()));
     }
-    findComponents(complex);
+    if (!job.stopRequested())
+        findComponents(complex);
     return complex;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // The simplicial complex that a submesh is collapsed on: topology on welded positions, attributes
 // on wedges (a wedge is a vertex of the file; several may share a position along a seam).
+#include "scene/job_context.h"
 #include "scene/scene.h"
 
 #include <array>
@@ -27,6 +28,7 @@ struct Complex {
 
 // Builds the complex of a submesh's triangle primitives (others get empty ranges).
 // Positions weld where they are bitwise equal (-0 = 0) inside a weld block. O(vertices + faces).
-Complex buildComplex(const Submesh& submesh);
+// Stops early where asked to: the caller looks at the job and drops what it got.
+Complex buildComplex(const Submesh& submesh, const JobContext& job);
 
 } // namespace lodestone

@@ -262,6 +262,57 @@ void ComponentMesh::addBoundaryQuadric(std::uint32_t a, std::uint32_t b, std::ui
             plane.weight);
 }
 
+namespace {
+
+// One quadric in all lanes, or four different ones.
+QuadricOf<Float4> lanes(const std::array<const Quadric*, 4>& q) {
+    const auto gather = [&](float Quadric::*part) {
+        return Float4{q[0]->*part, q[1]->*part, q[2]->*part, q[3]->*part};
+    };
+    QuadricOf<Float4> r;
+    r.xx = gather(&Quadric::xx);
+    r.yy = gather(&Quadric::yy);
+    r.zz = gather(&Quadric::zz);
+    r.xy = gather(&Quadric::xy);
+    r.xz = gather(&Quadric::xz);
+    r.yz = gather(&Quadric::yz);
+    r.bx = gather(&Quadric::bx);
+    r.by = gather(&Quadric::by);
+    r.bz = gather(&Quadric::bz);
+    r.c = gather(&Quadric::c);
+    return r;
+}
+
+} // namespace
+
+void ComponentMesh::costEdges(std::uint32_t v,
+                              std::span<const std::uint32_t> others,
+                              std::span<float> keys) const {
+    const Quadric* own = &metrics_[v].quadric;
+    const QuadricOf<Float4> first = lanes({own, own, own, own});
+    const Float3 from = points_[v].position;
+    for (std::size_t i = 0; i < others.size(); i += 4) {
+        std::array<std::uint32_t, 4> id; // the last ones repeat where fewer than four are left
+        for (std::size_t lane = 0; lane < 4; ++lane)
+            id[lane] = others[std::min(i + lane, others.size() - 1)];
+        const auto half = [&](float Float3::*axis) {
+            const auto at = [&](std::size_t lane) {
+                return (points_[id[lane]].position.*axis - from.*axis) * 0.5f;
+            };
+            return Float4{at(0), at(1), at(2), at(3)};
+        };
+        const PlacementOf<Float4> placed =
+            placeEdge(first,
+                      lanes({&metrics_[id[0]].quadric,
+                             &metrics_[id[1]].quadric,
+                             &metrics_[id[2]].quadric,
+                             &metrics_[id[3]].quadric}),
+                      Vector3<Float4>{half(&Float3::x), half(&Float3::y), half(&Float3::z)});
+        for (std::size_t lane = 0; lane < std::min<std::size_t>(4, others.size() - i); ++lane)
+            keys[i + lane] = placed.key[lane];
+    }
+}
+
 double ComponentMesh::costScale() const {
     return scale_ * scale_ * scale_ * scale_;
 }

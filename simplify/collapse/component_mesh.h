@@ -6,6 +6,8 @@
 #include "simplify/collapse/instance_weights.h"
 #include "simplify/collapse/quadric.h"
 
+#include <atomic>
+
 namespace lodestone {
 
 struct CollapseOptions {
@@ -89,6 +91,10 @@ public:
                          (points_[b].position - points_[a].position) * 0.5f);
     }
 
+    // Keys of the edges from v to each of others, four at a time. keys: [others]
+    void
+    costEdges(std::uint32_t v, std::span<const std::uint32_t> others, std::span<float> keys) const;
+
     // Hints that a vertex will be looked at soon: first its ring's place, later the ring itself.
     void prefetchRing(std::uint32_t v) const {
         __builtin_prefetch(&rings_[v]);
@@ -105,9 +111,14 @@ public:
             __builtin_prefetch(&faces_[face]);
     }
 
-    // Calls visit(neighbour) once for each vertex that shares a live face with v.
-    template <class Visit>
-    void forNeighbours(std::uint32_t v, Visit visit);
+    // The vertices that share a live face with v and are accepted, and the keys of their edges with
+    // v. Valid until the next call.
+    struct Spokes {
+        std::span<const std::uint32_t> others;
+        std::span<const float> keys;
+    };
+    template <class Accept>
+    Spokes costSpokes(std::uint32_t v, Accept accept);
 
     // Collapses b into a at the placement if strictness allows, and logs the step.
     bool tryCollapse(std::uint32_t a,
@@ -223,28 +234,54 @@ private:
     std::vector<RingFace> ring_b_;                            // faces around b without a
     std::vector<std::uint32_t> dying_;                        // faces with both
     std::vector<std::array<std::uint32_t, 2>> merged_wedges_; // {b's, a's} of the current collapse
+    std::vector<std::uint32_t> spokes_;                       // of costSpokes()
+    std::vector<float> spoke_keys_;
     std::vector<std::uint32_t> scratch_;
     CollapseLog log_;
 };
 
-template <class Visit>
-void ComponentMesh::forNeighbours(std::uint32_t v, Visit visit) {
+template <class Accept>
+ComponentMesh::Spokes ComponentMesh::costSpokes(std::uint32_t v, Accept accept) {
     const std::uint32_t stamp = nextStamp();
     points_[v].mark = stamp;
+    spokes_.clear();
     for (const std::uint32_t face : facesAround(v))
         for (const std::uint32_t other : faces_[face])
             if (points_[other].mark != stamp) {
                 points_[other].mark = stamp;
-                visit(other);
+                if (accept(other))
+                    spokes_.push_back(other);
             }
+    spoke_keys_.resize(spokes_.size());
+    costEdges(v, spokes_, spoke_keys_);
+    return {spokes_, spoke_keys_};
 }
+
+// Counts faces gone, over all components, and says when to stop. Looked at about every 1,000
+// collapses: a few milliseconds.
+struct CollapseWatch {
+    const JobContext& job;
+    std::atomic<std::uint64_t>& faces_gone;
+    std::uint64_t faces_in_all = 0;
+
+    // before: the mesh's live faces when last asked; brought up to date. False if to stop.
+    bool goOn(const ComponentMesh& mesh, std::uint32_t& before) const {
+        const std::uint64_t gone = faces_gone += before - mesh.liveFaces();
+        before = mesh.liveFaces();
+        constexpr double kShare = 0.9; // joining and floors take the rest
+        job.report(kShare * static_cast<double>(gone) / static_cast<double>(faces_in_all));
+        return !job.stopRequested();
+    }
+};
 
 // Collapses until nothing is left to collapse, the cheapest edge first (indexed by a lazy heap).
 // False if stopped.
-bool collapseExactGreedy(ComponentMesh& mesh, const JobContext& job);
+bool collapseExactGreedy(ComponentMesh& mesh, const CollapseWatch& watch);
 
 // Near-greedy passes until `stop_at_faces`: each pass takes edges by rising cost, every vertex at
 // most once, up to 1.5 x the cost at which a quarter of the faces would be gone. False if stopped.
-bool collapseNearGreedy(ComponentMesh& mesh, std::uint32_t stop_at_faces, const JobContext& job);
+bool collapseNearGreedy(ComponentMesh& mesh,
+                        std::uint32_t stop_at_faces,
+                        const CollapseWatch& watch);
 
 } // namespace lodestone

@@ -29,19 +29,16 @@ public:
     void fill() {
         heap_.clear();
         for (std::uint32_t v = 0; v < mesh_.vertexCount(); ++v)
-            if (mesh_.alive(v))
-                mesh_.forNeighbours(v, [&](std::uint32_t other) {
-                    if (other > v)
-                        heap_.push_back(candidate(v, other));
-                });
+            addAround(v, [&](std::uint32_t other) { return other > v; });
         std::ranges::make_heap(heap_, Later{});
     }
 
     void pushAround(std::uint32_t v) {
-        mesh_.forNeighbours(v, [&](std::uint32_t other) {
-            heap_.push_back(candidate(std::min(v, other), std::max(v, other)));
-            std::ranges::push_heap(heap_, Later{});
-        });
+        const std::size_t before = heap_.size();
+        addAround(v, [](std::uint32_t) { return true; });
+        for (std::size_t end = before + 1; end <= heap_.size(); ++end)
+            std::ranges::push_heap(
+                heap_.begin(), heap_.begin() + static_cast<std::ptrdiff_t>(end), Later{});
     }
 
     // The cheapest candidate whose ends have not changed since; false if there is none.
@@ -61,9 +58,15 @@ private:
         return mesh_.version(a) + mesh_.version(b);
     }
 
-    Candidate candidate(std::uint32_t a, std::uint32_t b) const {
-        const float key = mesh_.place(a, b).key;
-        return {std::uint64_t{std::bit_cast<std::uint32_t>(key)} << 32 | a, b, stampOf(a, b)};
+    template <class Accept>
+    void addAround(std::uint32_t v, Accept accept) {
+        const ComponentMesh::Spokes spokes = mesh_.costSpokes(v, accept);
+        for (std::size_t i = 0; i < spokes.others.size(); ++i) {
+            const std::uint32_t a = std::min(v, spokes.others[i]);
+            const std::uint32_t b = std::max(v, spokes.others[i]);
+            const auto cost = std::bit_cast<std::uint32_t>(spokes.keys[i]);
+            heap_.push_back({std::uint64_t{cost} << 32 | a, b, stampOf(a, b)});
+        }
     }
 
     ComponentMesh& mesh_;
@@ -74,11 +77,12 @@ private:
 bool drain(ComponentMesh& mesh,
            LazyHeap& heap,
            Strictness strictness,
-           const JobContext& job,
+           const CollapseWatch& watch,
            bool& moved) {
     Candidate candidate;
+    std::uint32_t live = mesh.liveFaces();
     for (std::uint32_t round = 1; heap.pop(candidate); ++round) {
-        if (round % 1024 == 0 && job.stopRequested())
+        if (round % 1024 == 0 && !watch.goOn(mesh, live))
             return false;
         const std::uint32_t a = candidate.first();
         const std::uint32_t b = candidate.second;
@@ -87,12 +91,12 @@ bool drain(ComponentMesh& mesh,
         moved = true;
         heap.pushAround(a);
     }
-    return !job.stopRequested();
+    return watch.goOn(mesh, live);
 }
 
 } // namespace
 
-bool collapseExactGreedy(ComponentMesh& mesh, const JobContext& job) {
+bool collapseExactGreedy(ComponentMesh& mesh, const CollapseWatch& watch) {
     LazyHeap heap(mesh);
     // A rejected edge may become possible once its surroundings have changed: queues are refilled
     // while that helps, and only then is the next liberty taken.
@@ -102,7 +106,7 @@ bool collapseExactGreedy(ComponentMesh& mesh, const JobContext& job) {
         while (moved && mesh.liveFaces() > 0) {
             moved = false;
             heap.fill();
-            if (!drain(mesh, heap, strictness, job, moved))
+            if (!drain(mesh, heap, strictness, watch, moved))
                 return false;
         }
     }

@@ -21,6 +21,10 @@ double traceOf(const glm::dmat3& m) {
     return m[0][0] + m[1][1] + m[2][2];
 }
 
+double squared(double value) {
+    return value * value;
+}
+
 bool isSimilarity(const glm::dmat3& gram) {
     const double s2 = traceOf(gram) / 3.0;
     for (int c = 0; c < 3; ++c)
@@ -67,6 +71,33 @@ struct TableCell {
     double v = 0.0;
 };
 
+// The planes of sum (e x p)(e x p)^T over the pulls p, given S = sum p p^T: at most two, along the
+// principal directions across the edge.
+void splitPull(const glm::dvec3& edge,
+               const glm::dmat3& pull,
+               std::vector<InstanceWeights::Plane>& out) {
+    const glm::dvec3 size = glm::abs(edge);
+    const glm::dvec3 aside = size.x <= size.y && size.x <= size.z ? glm::dvec3(1.0, 0.0, 0.0)
+                             : size.y <= size.z                   ? glm::dvec3(0.0, 1.0, 0.0)
+                                                                  : glm::dvec3(0.0, 0.0, 1.0);
+    const glm::dvec3 u = glm::normalize(glm::cross(edge, aside));
+    const glm::dvec3 v = glm::normalize(glm::cross(edge, u));
+    const glm::dvec3 a = glm::cross(u, edge);
+    const glm::dvec3 b = glm::cross(v, edge);
+    const double uu = glm::dot(a, pull * a);
+    const double uv = glm::dot(a, pull * b);
+    const double vv = glm::dot(b, pull * b);
+    const double angle = 0.5 * std::atan2(2.0 * uv, uu - vv);
+    const double half_gap = std::hypot(0.5 * (uu - vv), uv);
+    const double mean = 0.5 * (uu + vv);
+    const double c = std::cos(angle);
+    const double s = std::sin(angle);
+    if (mean + half_gap > 0.0)
+        out.push_back({c * u + s * v, mean + half_gap});
+    if (mean - half_gap > 1e-12 * mean)
+        out.push_back({c * v - s * u, mean - half_gap});
+}
+
 TableCell cellOf(const glm::dvec3& n) {
     int axis = 0;
     for (int i = 1; i < 3; ++i)
@@ -86,6 +117,7 @@ InstanceWeights::InstanceWeights() {
 InstanceWeights::InstanceWeights(std::span<const glm::dmat3> linear_parts) {
     double sum4 = 0.0; // of similarities
     double sum3 = 0.0;
+    double similar_count = 0.0;
     max_stretch_ = 0.0;
     std::map<std::array<std::int64_t, 7>, Group> distinct;
     for (const glm::dmat3& linear : linear_parts) {
@@ -97,13 +129,18 @@ InstanceWeights::InstanceWeights(std::span<const glm::dmat3> linear_parts) {
         if (isSimilarity(gram)) {
             sum4 += s2 * s2;
             sum3 += s2 * std::sqrt(s2);
+            similar_count += 1.0;
             max_stretch_ = std::max(max_stretch_, std::sqrt(s2));
             continue;
         }
         max_stretch_ = std::max(max_stretch_, stretchOf(gram));
         const auto [group, added] = distinct.try_emplace(keyOf(gram));
         if (added)
-            group->second = {gram, cofactor(gram), glm::determinant(gram), 0.0, 0.0};
+            group->second = {gram,
+                             glm::transpose(cofactor(linear)) * cofactor(linear),
+                             squared(glm::determinant(linear)),
+                             0.0,
+                             0.0};
         group->second.count += 1.0;
         group->second.length_count += 1.0;
     }
@@ -113,10 +150,10 @@ InstanceWeights::InstanceWeights(std::span<const glm::dmat3> linear_parts) {
     }
     for (const auto& [key, group] : distinct)
         groups_.push_back(group);
-    if (sum4 > 0.0) { // all similarities weigh like one group of unit scale
-        Group similar;
-        similar.count = sum4;
-        similar.length_count = sum3;
+    if (sum4 > 0.0) { // all similarities weigh like one group of their mean scale
+        const double s2 = std::sqrt(sum4 / similar_count);
+        Group similar{glm::dmat3(s2), glm::dmat3(s2 * s2), s2 * s2 * s2, similar_count, 0.0};
+        similar.length_count = sum3 / (s2 * std::sqrt(s2));
         groups_.push_back(similar);
     }
     if (groups_.size() > kMaxGroups) {
@@ -125,34 +162,41 @@ InstanceWeights::InstanceWeights(std::span<const glm::dmat3> linear_parts) {
     }
 }
 
-double InstanceWeights::faceExact(const glm::dvec3& normal) const {
-    double sum = 0.0;
+InstanceWeights::Directed InstanceWeights::exact(const glm::dvec3& normal) const {
+    Directed sum;
     for (const Group& group : groups_) {
-        const double stretch2 = glm::dot(normal, group.cofactor * normal);
-        if (stretch2 > 0.0)
-            sum += group.count * group.determinant / std::sqrt(stretch2);
+        const glm::dvec3 pulled = group.cofactor * normal;
+        const double stretch2 = glm::dot(normal, pulled); // |C n|^2
+        if (!(stretch2 > 0.0))
+            continue;
+        sum.face += group.count * group.determinant / std::sqrt(stretch2) / scale_;
+        sum.pull += glm::outerProduct(pulled, pulled) * (group.count / stretch2 / scale_);
     }
-    return sum / scale_;
+    return sum;
 }
 
-double InstanceWeights::face(const glm::dvec3& normal) const {
-    if (groups_.empty())
-        return 1.0;
-    if (table_.empty())
-        return faceExact(normal);
+InstanceWeights::Directed InstanceWeights::lookUp(const glm::dvec3& normal) const {
     const TableCell cell = cellOf(normal);
     const double x = cell.u * (kTableSide - 1);
     const double y = cell.v * (kTableSide - 1);
     const int x0 = std::clamp(static_cast<int>(x), 0, kTableSide - 2);
     const int y0 = std::clamp(static_cast<int>(y), 0, kTableSide - 2);
-    const auto at = [&](int dx, int dy) {
-        const int row = cell.face * kTableSide + y0 + dy;
-        return table_[static_cast<std::size_t>(row * kTableSide + x0 + dx)];
-    };
-    const double fx = x - x0;
-    const double fy = y - y0;
-    return (at(0, 0) * (1 - fx) + at(1, 0) * fx) * (1 - fy) +
-           (at(0, 1) * (1 - fx) + at(1, 1) * fx) * fy;
+    Directed sum;
+    for (int dy = 0; dy < 2; ++dy)
+        for (int dx = 0; dx < 2; ++dx) {
+            const int row = cell.face * kTableSide + y0 + dy;
+            const Directed& at = table_[static_cast<std::size_t>(row * kTableSide + x0 + dx)];
+            const double share = (dx ? x - x0 : 1.0 - (x - x0)) * (dy ? y - y0 : 1.0 - (y - y0));
+            sum.face += at.face * share;
+            sum.pull += at.pull * share;
+        }
+    return sum;
+}
+
+double InstanceWeights::face(const glm::dvec3& normal) const {
+    if (groups_.empty())
+        return 1.0;
+    return table_.empty() ? exact(normal).face : lookUp(normal).face;
 }
 
 void InstanceWeights::border(const glm::dvec3& edge,
@@ -169,6 +213,10 @@ void InstanceWeights::border(const glm::dvec3& edge,
         if (length > 0.0)
             out.push_back(
                 {across / length, by_length ? std::sqrt(length2) * length_ratio_ : length2});
+        return;
+    }
+    if (!table_.empty() && !by_length) {
+        splitPull(edge, lookUp(normal).pull, out);
         return;
     }
     for (const Group& group : groups_) {
@@ -195,12 +243,11 @@ void InstanceWeights::tabulate() {
                 n[(face + 1) % 3] = 2.0 * x / (kTableSide - 1) - 1.0;
                 n[(face + 2) % 3] = 2.0 * y / (kTableSide - 1) - 1.0;
                 const int row = face * kTableSide + y;
-                table_[static_cast<std::size_t>(row * kTableSide + x)] =
-                    faceExact(glm::normalize(n));
+                table_[static_cast<std::size_t>(row * kTableSide + x)] = exact(glm::normalize(n));
             }
 }
 
-// Borders cannot be tabulated over directions alone: groups of like size are averaged instead.
+// Borders by length cannot be tabulated over directions alone: groups of like size are averaged.
 void InstanceWeights::cluster() {
     std::ranges::stable_sort(groups_, {}, [](const Group& g) { return traceOf(g.gram); });
     std::vector<Group> clusters;
@@ -210,13 +257,19 @@ void InstanceWeights::cluster() {
         Group mean;
         mean.gram = glm::dmat3(0.0);
         mean.count = 0.0;
-        mean.length_count = 0.0;
+        double weight4 = 0.0; // what the groups weigh by squared length: trace^2
+        double weight3 = 0.0; // and by length
         for (std::size_t g = begin; g < end; ++g) {
-            mean.gram += groups_[g].gram * groups_[g].count;
-            mean.count += groups_[g].count;
-            mean.length_count += groups_[g].length_count;
+            const Group& group = groups_[g];
+            const double trace = traceOf(group.gram);
+            mean.gram += group.gram * (group.count * trace);
+            mean.count += group.count;
+            weight4 += group.count * trace * trace;
+            weight3 += group.length_count * trace * std::sqrt(trace);
         }
-        mean.gram /= mean.count;
+        const double trace = std::sqrt(weight4 / mean.count); // so that the sums are kept
+        mean.gram *= trace / traceOf(mean.gram);
+        mean.length_count = weight3 / (trace * std::sqrt(trace));
         mean.cofactor = cofactor(mean.gram);
         mean.determinant = glm::determinant(mean.gram);
         clusters.push_back(mean);

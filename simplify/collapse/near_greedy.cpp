@@ -32,14 +32,18 @@ public:
     }
 
     // One pass. The number of collapses, or -1 if stopped.
-    std::int64_t run(std::uint32_t stop_at_faces, const JobContext& job) {
+    std::int64_t run(std::uint32_t stop_at_faces, const CollapseWatch& watch) {
+        std::uint32_t live = mesh_.liveFaces();
         selectCheapest();
         std::int64_t collapses = 0;
         moved_.clear();
         for (std::size_t i = 0; i < chosen_.size() && mesh_.liveFaces() > stop_at_faces; ++i) {
-            if (i % 1024 == 0 && job.stopRequested())
+            if (i % 1024 == 0 && !watch.goOn(mesh_, live))
                 return -1;
-            prefetchAhead(i);
+            prefetchAhead(i, chosen_.size(), [&](std::size_t at, auto prefetch) {
+                prefetch(chosen_[at].a);
+                prefetch(chosen_[at].b);
+            });
             const auto [cost, a, b] = chosen_[i];
             if (touched_[a] || touched_[b] || !mesh_.movable(a, b) ||
                 !mesh_.tryCollapse(a, b, mesh_.place(a, b), Strictness::Manifold))
@@ -49,31 +53,29 @@ public:
             ++collapses;
         }
         refresh();
-        return collapses;
+        return watch.goOn(mesh_, live) ? collapses : -1;
     }
 
 private:
     template <class Accept>
     void addAround(std::uint32_t v, Accept accept) {
-        mesh_.forNeighbours(v, [&](std::uint32_t other) {
-            if (accept(other))
-                edges_.push_back(
-                    {mesh_.place(v, other).key, std::min(v, other), std::max(v, other)});
-        });
+        const ComponentMesh::Spokes spokes = mesh_.costSpokes(v, accept);
+        for (std::size_t i = 0; i < spokes.others.size(); ++i) {
+            const std::uint32_t other = spokes.others[i];
+            edges_.push_back({spokes.keys[i], std::min(v, other), std::max(v, other)});
+        }
     }
 
-    // What is picked next is known, so its memory can be on its way.
-    void prefetchAhead(std::size_t i) const {
-        constexpr std::size_t kFar = 24, kMiddle = 16, kNear = 8;
-        const auto each = [&](std::size_t ahead, auto prefetch) {
-            if (i + ahead < chosen_.size()) {
-                prefetch(chosen_[i + ahead].a);
-                prefetch(chosen_[i + ahead].b);
-            }
-        };
-        each(kFar, [&](std::uint32_t v) { mesh_.prefetchRing(v); });
-        each(kMiddle, [&](std::uint32_t v) { mesh_.prefetchReferences(v); });
-        each(kNear, [&](std::uint32_t v) { mesh_.prefetchFaces(v); });
+    // What is looked at next is known, so its memory can be on its way.
+    template <class Ids>
+    void prefetchAhead(std::size_t i, std::size_t count, Ids ids) const {
+        constexpr std::size_t kFar = 48, kMiddle = 32, kNear = 16;
+        if (i + kFar < count)
+            ids(i + kFar, [&](std::uint32_t v) { mesh_.prefetchRing(v); });
+        if (i + kMiddle < count)
+            ids(i + kMiddle, [&](std::uint32_t v) { mesh_.prefetchReferences(v); });
+        if (i + kNear < count)
+            ids(i + kNear, [&](std::uint32_t v) { mesh_.prefetchFaces(v); });
     }
 
     // Edges up to 1.5 x the cost of the one at which a quarter of the faces would be gone, sorted
@@ -102,8 +104,12 @@ private:
         std::ranges::sort(moved_); // walked in memory order
         std::erase_if(edges_,
                       [&](const Edge& edge) { return touched_[edge.a] || touched_[edge.b]; });
-        for (const std::uint32_t v : moved_)
+        for (std::size_t i = 0; i < moved_.size(); ++i) {
+            prefetchAhead(
+                i, moved_.size(), [&](std::size_t at, auto prefetch) { prefetch(moved_[at]); });
+            const std::uint32_t v = moved_[i];
             addAround(v, [&](std::uint32_t other) { return !touched_[other] || other > v; });
+        }
         touched_.assign(touched_.size(), false);
         renumber(mesh_.compact());
     }
@@ -127,11 +133,13 @@ private:
 
 } // namespace
 
-bool collapseNearGreedy(ComponentMesh& mesh, std::uint32_t stop_at_faces, const JobContext& job) {
+bool collapseNearGreedy(ComponentMesh& mesh,
+                        std::uint32_t stop_at_faces,
+                        const CollapseWatch& watch) {
     PassQueue queue(mesh);
     while (mesh.liveFaces() > stop_at_faces) {
         const std::uint32_t before = mesh.liveFaces();
-        const std::int64_t collapses = queue.run(stop_at_faces, job);
+        const std::int64_t collapses = queue.run(stop_at_faces, watch);
         if (collapses < 0)
             return false;
         if (mesh.liveFaces() > before - before / 50) // the heap gets farther

@@ -10,25 +10,35 @@
 
 namespace lodestone {
 
-struct Float3 {
-    float x = 0.0f;
-    float y = 0.0f;
-    float z = 0.0f;
+// Four numbers at once; the same code places one edge or four.
+using Float4 = float __attribute__((vector_size(16)));
+
+template <class T>
+struct Vector3 {
+    T x{};
+    T y{};
+    T z{};
 };
 
-inline Float3 operator+(Float3 a, Float3 b) {
+using Float3 = Vector3<float>;
+
+template <class T>
+Vector3<T> operator+(const Vector3<T>& a, const Vector3<T>& b) {
     return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
 
-inline Float3 operator-(Float3 a, Float3 b) {
+template <class T>
+Vector3<T> operator-(const Vector3<T>& a, const Vector3<T>& b) {
     return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 
-inline Float3 operator*(Float3 a, float s) {
+template <class T>
+Vector3<T> operator*(const Vector3<T>& a, float s) {
     return {a.x * s, a.y * s, a.z * s};
 }
 
-inline float dot(Float3 a, Float3 b) {
+template <class T>
+T dot(const Vector3<T>& a, const Vector3<T>& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
@@ -36,13 +46,25 @@ inline Float3 cross(Float3 a, Float3 b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+// a where the mask is set, else b.
+inline float select(bool mask, float a, float b) {
+    return mask ? a : b;
+}
+
+inline Float4 select(decltype(Float4{} < Float4{}) mask, Float4 a, Float4 b) {
+    return mask ? a : b;
+}
+
 // error(x) = x.A.x + 2 b.x + c, x relative to the vertex.
-struct Quadric {
-    float xx = 0.0f, yy = 0.0f, zz = 0.0f, xy = 0.0f, xz = 0.0f, yz = 0.0f; // A, symmetric
-    float bx = 0.0f, by = 0.0f, bz = 0.0f;                                  // b
-    float c = 0.0f;
-    float weight = 0.0f; // sum of the face weights in it, to turn an error into a distance
+template <class T>
+struct QuadricOf {
+    T xx{}, yy{}, zz{}, xy{}, xz{}, yz{}; // A, symmetric
+    T bx{}, by{}, bz{};                   // b
+    T c{};
+    T weight{}; // sum of the face weights in it, to turn an error into a distance
 };
+
+using Quadric = QuadricOf<float>;
 
 // Adds weight * (distance to the plane with unit normal n at offset from the vertex)^2.
 inline void addPlane(Quadric& q, Float3 n, float offset, float weight) {
@@ -65,6 +87,13 @@ inline Float3 apply(const Quadric& q, Float3 v) {
             q.xz * v.x + q.yz * v.y + q.zz * v.z};
 }
 
+template <class T>
+Vector3<T> apply(const QuadricOf<T>& q, const Vector3<T>& v) {
+    return {q.xx * v.x + q.xy * v.y + q.xz * v.z,
+            q.xy * v.x + q.yy * v.y + q.yz * v.z,
+            q.xz * v.x + q.yz * v.y + q.zz * v.z};
+}
+
 // The same error function about another origin: x relative to (vertex + shift).
 inline Quadric translated(const Quadric& q, Float3 shift) {
     Quadric r = q;
@@ -78,7 +107,8 @@ inline Quadric translated(const Quadric& q, Float3 shift) {
 }
 
 // Sum of two quadrics about the same origin.
-inline Quadric sum(const Quadric& p, const Quadric& q) {
+template <class T>
+QuadricOf<T> sum(const QuadricOf<T>& p, const QuadricOf<T>& q) {
     return {p.xx + q.xx,
             p.yy + q.yy,
             p.zz + q.zz,
@@ -92,22 +122,28 @@ inline Quadric sum(const Quadric& p, const Quadric& q) {
             p.weight + q.weight};
 }
 
-inline float evaluate(const Quadric& q, Float3 x) {
-    const Float3 a = apply(q, x);
-    return std::max(dot(x, {a.x + 2.0f * q.bx, a.y + 2.0f * q.by, a.z + 2.0f * q.bz}) + q.c, 0.0f);
+template <class T>
+T evaluate(const QuadricOf<T>& q, const Vector3<T>& x) {
+    const Vector3<T> a = apply(q, x);
+    const T two = T{} + 2.0f;
+    return dot(x, {a.x + two * q.bx, a.y + two * q.by, a.z + two * q.bz}) + q.c;
 }
 
-struct Placement {
-    Float3 at;         // relative to the edge's midpoint
-    float cost = 0.0f; // quadric error there, >= 0
-    float key = 0.0f;  // what the queue orders by: cost plus a tiny preference for short edges
+template <class T>
+struct PlacementOf {
+    Vector3<T> at; // relative to the edge's midpoint
+    T cost{};      // quadric error there, >= 0
+    T key{};       // what the queue orders by: cost plus a tiny preference for short edges
 };
 
+using Placement = PlacementOf<float>;
+
 // Sum of two quadrics about the middle of their vertices; half: from the middle to the second.
-inline Quadric sumAtMiddle(const Quadric& p, const Quadric& q, Float3 half) {
-    Quadric s = sum(p, q);
-    const Float3 slope{p.bx - q.bx, p.by - q.by, p.bz - q.bz};
-    s.c += 2.0f * dot(slope, half) + dot(half, apply(s, half));
+template <class T>
+QuadricOf<T> sumAtMiddle(const QuadricOf<T>& p, const QuadricOf<T>& q, const Vector3<T>& half) {
+    QuadricOf<T> s = sum(p, q);
+    const Vector3<T> slope{p.bx - q.bx, p.by - q.by, p.bz - q.bz};
+    s.c += dot(slope, half) * 2.0f + dot(half, apply(s, half));
     s.bx += (p.xx - q.xx) * half.x + (p.xy - q.xy) * half.y + (p.xz - q.xz) * half.z;
     s.by += (p.xy - q.xy) * half.x + (p.yy - q.yy) * half.y + (p.yz - q.yz) * half.z;
     s.bz += (p.xz - q.xz) * half.x + (p.yz - q.yz) * half.y + (p.zz - q.zz) * half.z;
@@ -117,51 +153,59 @@ inline Quadric sumAtMiddle(const Quadric& p, const Quadric& q, Float3 half) {
 // Best place for the merged vertex of an edge. half: from the midpoint to the second end.
 // Tikhonov towards the midpoint keeps flat and straight neighbourhoods well-posed; a solution
 // farther out than the edge is long falls back to the best of both ends and the middle.
-inline Placement placeEdge(const Quadric& p, const Quadric& q, Float3 half) {
+template <class T>
+PlacementOf<T> placeEdge(const QuadricOf<T>& p, const QuadricOf<T>& q, const Vector3<T>& half) {
     constexpr float kTikhonov = 1e-5f;
     constexpr float kShortEdge = 1e-7f;
     constexpr float kReach = 4.0f; // squared distance from the midpoint over |half|^2
+    const T zero{};
+    const T one = zero + 1.0f;
 
-    const Quadric s = sumAtMiddle(p, q, half);
-    const float trace = s.xx + s.yy + s.zz;
-    const float length2 = dot(half, half);
-    const float lambda = kTikhonov * trace;
+    const QuadricOf<T> s = sumAtMiddle(p, q, half);
+    const T trace = s.xx + s.yy + s.zz;
+    const T length2 = dot(half, half);
+    const T lambda = trace * kTikhonov;
 
     // Cholesky (L D L^T) of A + lambda I; positive definite, or all zero.
-    const float d0 = s.xx + lambda;
-    const float i0 = d0 > 0.0f ? 1.0f / d0 : 0.0f;
-    const float l10 = s.xy * i0;
-    const float l20 = s.xz * i0;
-    const float d1 = s.yy + lambda - l10 * s.xy;
-    const float i1 = d1 > 0.0f ? 1.0f / d1 : 0.0f;
-    const float m21 = s.yz - l20 * s.xy;
-    const float l21 = m21 * i1;
-    const float d2 = s.zz + lambda - l20 * s.xz - l21 * m21;
-    const float i2 = d2 > 0.0f ? 1.0f / d2 : 0.0f;
-    const float y0 = -s.bx;
-    const float y1 = -s.by - l10 * y0;
-    const float y2 = -s.bz - l20 * y0 - l21 * y1;
-    Float3 x;
+    const auto inverse = [&](const T& d) { return select(d > zero, one / d, zero); };
+    const T d0 = s.xx + lambda;
+    const T i0 = inverse(d0);
+    const T l10 = s.xy * i0;
+    const T l20 = s.xz * i0;
+    const T d1 = s.yy + lambda - l10 * s.xy;
+    const T i1 = inverse(d1);
+    const T m21 = s.yz - l20 * s.xy;
+    const T l21 = m21 * i1;
+    const T d2 = s.zz + lambda - l20 * s.xz - l21 * m21;
+    const T i2 = inverse(d2);
+    const T y0 = -s.bx;
+    const T y1 = -s.by - l10 * y0;
+    const T y2 = -s.bz - l20 * y0 - l21 * y1;
+    Vector3<T> x;
     x.z = y2 * i2;
     x.y = y1 * i1 - l21 * x.z;
     x.x = y0 * i0 - l10 * x.y - l20 * x.z;
 
-    Placement best;
-    const float reach2 = dot(x, x);
-    if (reach2 <= kReach * length2) {
-        best.at = x; // A x + b = -lambda x there, so the error needs no second product with A
-        best.cost = std::max(s.c + dot(x, {s.bx, s.by, s.bz}) - lambda * reach2, 0.0f);
-    } else {
-        best.cost = std::max(s.c, 0.0f);
-        for (const Float3 end : {half, half * -1.0f}) {
-            const float cost = evaluate(s, end);
-            if (cost < best.cost) {
-                best.cost = cost;
-                best.at = end;
-            }
-        }
+    // A x + b = -lambda x at the optimum, so its error needs no second product with A.
+    const T reach2 = dot(x, x);
+    const T optimal = s.c + dot(x, {s.bx, s.by, s.bz}) - lambda * reach2;
+    const auto near = reach2 <= length2 * kReach;
+
+    PlacementOf<T> best{{zero, zero, zero}, s.c, zero};
+    const auto offer = [&](const auto& better, const Vector3<T>& at, const T& cost) {
+        best.at.x = select(better, at.x, best.at.x);
+        best.at.y = select(better, at.y, best.at.y);
+        best.at.z = select(better, at.z, best.at.z);
+        best.cost = select(better, cost, best.cost);
+    };
+    for (const float side : {1.0f, -1.0f}) {
+        const Vector3<T> end = half * side;
+        const T cost = evaluate(s, end);
+        offer(cost < best.cost, end, cost);
     }
-    best.key = best.cost + kShortEdge * trace * length2;
+    offer(near, x, optimal);
+    best.cost = select(best.cost > zero, best.cost, zero); // also where it is not a number
+    best.key = best.cost + trace * length2 * kShortEdge;
     return best;
 }
 

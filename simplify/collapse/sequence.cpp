@@ -279,25 +279,27 @@ std::vector<Batch> makeBatches(std::span<const Build> builds) {
     return batches;
 }
 
-bool collapseComponent(ComponentMesh& mesh, const CollapseOptions& options, const JobContext& job) {
+bool collapseComponent(ComponentMesh& mesh,
+                       const CollapseOptions& options,
+                       const CollapseWatch& watch) {
     if (mesh.liveFaces() > options.near_greedy_above &&
-        !collapseNearGreedy(mesh, options.exact_below, job))
+        !collapseNearGreedy(mesh, options.exact_below, watch))
         return false;
-    return collapseExactGreedy(mesh, job);
+    return collapseExactGreedy(mesh, watch);
 }
 
 bool runBatch(const Batch& batch,
               Build& build,
               const SequenceRequest& request,
               const CollapseOptions& options,
-              const JobContext& job) {
+              const CollapseWatch& watch) {
     std::unique_ptr<ComponentMesh>& mesh = build.meshes->local();
     if (!mesh)
         mesh = std::make_unique<ComponentMesh>(
             build.complex, request.weights, build.attributes, options);
     for (std::size_t c = batch.begin; c < batch.end; ++c) {
         mesh->load(c);
-        if (!collapseComponent(*mesh, options, job))
+        if (!collapseComponent(*mesh, options, watch))
             return false;
         build.cost_scales[c] = mesh->costScale() * request.weights.scale() * request.world_weight;
         build.length_scales[c] = std::sqrt(std::sqrt(mesh->costScale()));
@@ -317,7 +319,9 @@ Result<std::vector<CollapseSequence>> buildSequences(std::span<const SequenceReq
         if (job.stopRequested())
             return;
         Build& build = builds[b];
-        build.complex = buildComplex(*requests[b].submesh);
+        build.complex = buildComplex(*requests[b].submesh, job);
+        if (job.stopRequested())
+            return;
         build.attributes = gatherAttributes(*requests[b].submesh, build.complex);
         build.logs.resize(build.complex.componentCount());
         build.cost_scales.resize(build.logs.size());
@@ -331,17 +335,16 @@ Result<std::vector<CollapseSequence>> buildSequences(std::span<const SequenceReq
     std::uint64_t faces = 0;
     for (const Batch& batch : batches)
         faces += batch.faces;
-    std::atomic<std::uint64_t> done{0};
+    std::atomic<std::uint64_t> faces_gone{0};
+    const CollapseWatch watch{job, faces_gone, faces};
     std::atomic<bool> stopped{false};
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, batches.size(), 1),
         [&](const tbb::blocked_range<std::size_t>& range) {
             for (std::size_t i = range.begin(); i != range.end() && !stopped; ++i) {
                 const std::size_t b = batches[i].build;
-                if (!runBatch(batches[i], builds[b], requests[b], options, job))
+                if (!runBatch(batches[i], builds[b], requests[b], options, watch))
                     stopped = true;
-                done += batches[i].faces;
-                job.report(0.95 * static_cast<double>(done) / static_cast<double>(faces));
             }
         },
         tbb::simple_partitioner{});
