@@ -271,7 +271,8 @@ void drawDialogs(Ui ui, const PanelInput& input, WindowState& state) {
         return;
     const char* const name = dialogName(state.dialog);
     ui.panel = name;
-    if (std::exchange(state.dialog_opens, false))
+    const bool opens = std::exchange(state.dialog_opens, false); // perhaps by Esc itself
+    if (opens)
         ImGui::OpenPopup(name);
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({display.x * 0.5f, display.y * 0.46f}, ImGuiCond_Always, {0.5f, 0.5f});
@@ -309,7 +310,7 @@ void drawDialogs(Ui ui, const PanelInput& input, WindowState& state) {
         drawQuit(ui, input, state);
         break;
     }
-    if (state.dialog != Dialog::None &&
+    if (state.dialog != Dialog::None && !opens &&
         ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false))
         close(state);
     ImGui::EndPopup();

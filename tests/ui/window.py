@@ -164,8 +164,17 @@ class Window:
         self.wait_frames(3)
 
     def key(self, keys):
+        """A chord such as "ctrl+o", as slowly as a hand does it: each step is seen by a frame."""
         self.window_id()
-        xdotool("key", keys)
+        *modifiers, last = keys.split("+")
+        for modifier in modifiers:
+            xdotool("keydown", modifier)
+            self.wait_frames(2)
+        xdotool("keydown", last)
+        self.wait_frames(2)
+        xdotool("keyup", last)
+        for modifier in modifiers:
+            xdotool("keyup", modifier)
         self.wait_frames(3)
 
     def type(self, text):
