@@ -71,8 +71,7 @@ Quadric4 literalBorder(const Sample& sample, bool by_length) {
     return total;
 }
 
-Quadric4 closedFaces(const Sample& sample) {
-    const InstanceWeights weights(sample.linearParts());
+Quadric4 closedFaces(const Sample& sample, const InstanceWeights& weights) {
     const glm::dvec3 cross = sample.scaledNormal();
     const glm::dvec3 normal = glm::normalize(cross);
     return planeQuadric(normal,
@@ -80,8 +79,7 @@ Quadric4 closedFaces(const Sample& sample) {
                         0.5 * glm::length(cross) * weights.face(normal) * weights.scale());
 }
 
-Quadric4 closedBorder(const Sample& sample, bool by_length) {
-    const InstanceWeights weights(sample.linearParts());
+Quadric4 closedBorder(const Sample& sample, const InstanceWeights& weights, bool by_length) {
     std::vector<InstanceWeights::Plane> planes;
     weights.border(sample.corner[1] - sample.corner[0],
                    glm::normalize(sample.scaledNormal()),
@@ -169,10 +167,11 @@ void expectLiteral(Maker& maker, int rounds, const std::vector<MakeTransform>& k
             for (int i = 0; i < each; ++i)
                 transforms.push_back((maker.*kind)());
         const Sample sample = maker.sample(transforms);
-        EXPECT_LT(relativeDifference(literalFaces(sample), closedFaces(sample)), 1e-9);
+        const InstanceWeights weights(sample.linearParts());
+        EXPECT_LT(relativeDifference(literalFaces(sample), closedFaces(sample, weights)), 1e-9);
         for (const bool by_length : {false, true})
             EXPECT_LT(relativeDifference(literalBorder(sample, by_length),
-                                         closedBorder(sample, by_length)),
+                                         closedBorder(sample, weights, by_length)),
                       1e-9)
                 << "by length: " << by_length;
     }
@@ -217,9 +216,11 @@ TEST(InstanceWeights, OfASingularTransformAreZeroOnFacesAndTheLoopOnBorders) {
     Maker maker(6);
     for (int round = 0; round < 30; ++round) {
         const Sample sample = maker.sample({maker.flattened()});
-        EXPECT_LT(norm(closedFaces(sample)), 1e-9);
-        EXPECT_LT(relativeDifference(literalBorder(sample, false), closedBorder(sample, false)),
-                  1e-9);
+        const InstanceWeights weights(sample.linearParts());
+        EXPECT_LT(norm(closedFaces(sample, weights)), 1e-9);
+        EXPECT_LT(
+            relativeDifference(literalBorder(sample, false), closedBorder(sample, weights, false)),
+            1e-9);
     }
 }
 
@@ -229,11 +230,12 @@ TEST(InstanceWeights, EqualTheLoopForNearlyFlatTransforms) {
         const glm::dmat4 flat =
             maker.rotation() * glm::scale(glm::dmat4(1.0), {1.0, 0.8, 1e-4}) * maker.rotation();
         const Sample sample = maker.sample({flat});
-        EXPECT_LT(relativeDifference(literalFaces(sample), closedFaces(sample)), 1e-6);
+        const InstanceWeights weights(sample.linearParts());
+        EXPECT_LT(relativeDifference(literalFaces(sample), closedFaces(sample, weights)), 2e-8); // the loop itself loses digits
     }
 }
 
-TEST(InstanceWeights, ArePositiveZeroForVanishingTransforms) {
+TEST(InstanceWeights, AreZeroForVanishingTransforms) {
     const std::array parts{glm::dmat3(0.0), glm::dmat3(0.0)};
     const InstanceWeights weights(parts);
     EXPECT_EQ(weights.scale(), 0.0);
@@ -271,26 +273,29 @@ TEST(InstanceWeights, OfManyGroupsAreWithinTwoPercentOfTheLoop) {
         for (int i = 0; i < each; ++i)
             for (const MakeTransform kind : {&Maker::similarity, &Maker::scaled, &Maker::sheared})
                 transforms.push_back((maker.*kind)());
+        const InstanceWeights weights(maker.sample(transforms).linearParts());
         for (int round = 0; round < 40; ++round) {
             const Sample sample = maker.sample(transforms);
-            EXPECT_LT(relativeDifference(literalFaces(sample), closedFaces(sample)), 0.02);
+            EXPECT_LT(relativeDifference(literalFaces(sample), closedFaces(sample, weights)), 0.02);
         }
     }
 }
 
-TEST(InstanceWeights, OfManyGroupsKeepBordersWithinAQuarterOfTheLoop) {
+TEST(InstanceWeights, OfManyGroupsKeepBordersNearTheLoop) {
     Maker maker(11);
     std::vector<glm::dmat4> transforms;
     for (int i = 0; i < 300; ++i)
         for (const MakeTransform kind : {&Maker::similarity, &Maker::scaled, &Maker::sheared})
             transforms.push_back((maker.*kind)());
+    const InstanceWeights weights(maker.sample(transforms).linearParts());
     for (int round = 0; round < 40; ++round) {
         const Sample sample = maker.sample(transforms);
-        for (const bool by_length : {false, true})
-            EXPECT_LT(relativeDifference(literalBorder(sample, by_length),
-                                         closedBorder(sample, by_length)),
-                      0.25)
-                << "by length: " << by_length;
+        EXPECT_LT(
+            relativeDifference(literalBorder(sample, false), closedBorder(sample, weights, false)),
+            0.02);
+        EXPECT_LT(
+            relativeDifference(literalBorder(sample, true), closedBorder(sample, weights, true)),
+            0.25);
     }
 }
 
