@@ -14,7 +14,7 @@ namespace {
 // Layout of the uniform block Frame in shaders/common.glsl (std140).
 struct FrameBlock {
     glm::mat4 clip_from_scene;
-    glm::vec4 eye;
+    glm::vec4 drawn;
     glm::vec4 right;
     glm::vec4 up;
     glm::vec4 back;
@@ -23,7 +23,8 @@ struct FrameBlock {
     glm::vec4 wire_color;
 };
 
-FrameBlock frameBlock(const View::Input& input, const SceneFrame& frame, int samples) {
+FrameBlock
+frameBlock(const View::Input& input, const SceneFrame& frame, const Antialiasing& antialiasing) {
     const glm::dmat4 view = viewMatrix(input.camera);
     const glm::dmat4 projection = projectionMatrix(input.camera, input.size.aspect());
     const glm::dmat4 world_from_scene =
@@ -36,7 +37,9 @@ FrameBlock frameBlock(const View::Input& input, const SceneFrame& frame, int sam
                                                std::cos(elevation) * std::cos(azimuth));
     FrameBlock block;
     block.clip_from_scene = glm::mat4(projection * view * world_from_scene);
-    block.eye = glm::vec4((cameraPosition(input.camera) - frame.center) / frame.radius, 1.0);
+    const glm::dvec2 middle =
+        glm::dvec2(input.size.width_px, input.size.height_px) * (antialiasing.scale * 0.5);
+    block.drawn = glm::vec4(middle, std::tan(input.camera.yfov_rad * 0.5) / middle.y, 0.0);
     block.right = glm::vec4(axes[0], 0.0);
     block.up = glm::vec4(axes[1], 0.0);
     block.back = glm::vec4(axes[2], input.camera.orthographic ? 1.0 : 0.0);
@@ -44,7 +47,7 @@ FrameBlock frameBlock(const View::Input& input, const SceneFrame& frame, int sam
     block.viewport = glm::vec4(input.size.width_px,
                                input.size.height_px,
                                input.options.exposure,
-                               samples > 1 ? 1.0f : 0.0f);
+                               antialiasing.samples > 1 ? 1.0f : 0.0f);
     block.wire_color = glm::vec4(input.options.wire_srgb, 1.0f);
     return block;
 }
@@ -278,16 +281,16 @@ void drawBackground(const RendererState& renderer, const ViewOptions& options) {
     glBindVertexArray(0);
 }
 
-Result<DrawTotals> drawLod(const View::Input& input, int samples) {
+Result<DrawTotals> drawLod(const View::Input& input, const Antialiasing& antialiasing) {
     const GpuSceneState& scene = input.scene->state();
     const LodState& lod = *input.lod->state();
     setFixedState();
-    const FrameBlock block = frameBlock(input, scene.frame, samples);
+    const FrameBlock block = frameBlock(input, scene.frame, antialiasing);
     glBindBuffer(GL_UNIFORM_BUFFER, scene.renderer->frameBuffer());
     glBufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STREAM_DRAW);
     glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, scene.renderer->frameBuffer());
     DrawTotals totals;
-    ItemBinder binder(scene, input.options, samples);
+    ItemBinder binder(scene, input.options, antialiasing.samples);
     Result<void> bound;
     for (const DrawItem& item : lod.items) {
         if (!scene.hidden.empty() && scene.hidden[item.submesh])

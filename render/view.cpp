@@ -43,14 +43,6 @@ PictureKey keyOf(const View::Input& input) {
     return key;
 }
 
-// How edges are smoothed: by multisampling, or by drawing larger and scaling down.
-struct Antialiasing {
-    int samples = 1;
-    int scale = 1; // of width and height
-
-    bool operator==(const Antialiasing&) const = default;
-};
-
 // llvmpipe spends 0.8 us a triangle on 4 x MSAA (1.4 s of 1.7 s for 1.8 M triangles), while drawing
 // 2 x 2 as large costs 0.1 s at 640 x 480: from this count on the latter is cheaper.
 constexpr std::uint64_t kSupersampledTriangles = 100'000;
@@ -181,7 +173,7 @@ Result<DrawTotals> ViewState::render(const View::Input& input) {
     drawBackground(*renderer_, input.options);
     Result<DrawTotals> totals;
     if (hasPicture(input))
-        totals = drawLod(input, antialiasing_.samples);
+        totals = drawLod(input, antialiasing_);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, drawn_.name());
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.name());
     // Halving with the linear filter averages exactly four pixels.

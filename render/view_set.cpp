@@ -117,4 +117,16 @@ Result<std::vector<ViewSet::Picture>> ViewSet::draw(std::span<const Wanted> want
     return pictures;
 }
 
+std::optional<Picked> ViewSet::pick(std::uint32_t key, const glm::dvec2& point) const {
+    const auto item = items_.find(key);
+    if (item == items_.end() || !item->second.drawn)
+        return std::nullopt;
+    const Item& last = item->second;
+    const auto scene = scenes_.find(last.scene);
+    if (scene == scenes_.end())
+        return std::nullopt;
+    return lodestone::pick({&scene->second, &last.handle, last.camera, last.options, last.size},
+                           point);
+}
+
 } // namespace lodestone

@@ -1,6 +1,7 @@
 #pragma once
 // The pictures of several lanes that share one camera: GPU scenes by scene, one view a lane, drawn
 // a few a call so that no frame waits for all of them. Main thread, context current.
+#include "render/pick.h"
 #include "render/view.h"
 
 #include <map>
@@ -36,6 +37,9 @@ public:
                                       const OrbitCamera& camera,
                                       const ViewOptions& options,
                                       double budget_ms);
+
+    // What was last drawn under a point of a lane's picture (see pick.h). nullopt: nothing.
+    std::optional<Picked> pick(std::uint32_t key, const glm::dvec2& point) const;
 
 private:
     struct Item {

@@ -1,7 +1,7 @@
 // Shared by all scene stages. Lengths are scene units: world, centred and scaled to radius 1.
 layout(std140) uniform Frame {
     mat4 clip_from_scene;
-    vec4 eye;        // xyz: position of the camera
+    vec4 drawn;      // xy: middle in drawn pixels; z: tangent of the viewing angle of one
     vec4 right;      // xyz: axes of the camera
     vec4 up;
     vec4 back;       // w: 1 orthographic, 0 perspective
@@ -19,6 +19,12 @@ layout(std140) uniform Material {
 } material;
 
 // Members of the block that travels from stage to stage; empty macros are absent members.
+#if !defined(HAS_NORMAL) || defined(FACETS) || defined(NORMAL_MAP)
+#define HAS_POSITION
+#define SURFACE_POSITION vec3 position;
+#else
+#define SURFACE_POSITION
+#endif
 #ifdef HAS_NORMAL
 #define SURFACE_NORMAL vec3 normal;
 #else
@@ -50,4 +56,4 @@ layout(std140) uniform Material {
 #define SURFACE_ID
 #endif
 #define SURFACE \
-    vec3 position; SURFACE_NORMAL SURFACE_UV0 SURFACE_UV1 SURFACE_COLOR SURFACE_MIRROR SURFACE_ID
+    SURFACE_POSITION SURFACE_NORMAL SURFACE_UV0 SURFACE_UV1 SURFACE_COLOR SURFACE_MIRROR SURFACE_ID

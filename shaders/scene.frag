@@ -66,14 +66,22 @@ vec4 baseColor() {
     return color;
 }
 
+// From the surface to the eye.
 vec3 viewDirection() {
-    return frame.back.w > 0.5 ? frame.back.xyz : normalize(frame.eye.xyz - surface.position);
+    if (frame.back.w > 0.5)
+        return frame.back.xyz;
+    vec2 tangent = (gl_FragCoord.xy - frame.drawn.xy) * frame.drawn.z;
+    return normalize(frame.back.xyz - frame.right.xyz * tangent.x - frame.up.xyz * tangent.y);
 }
 
 vec3 faceNormal() {
+#ifdef HAS_POSITION
     vec3 n = cross(dFdx(surface.position), dFdy(surface.position));
     float squared = dot(n, n);
     return squared > 0.0 ? n * inversesqrt(squared) : frame.back.xyz;
+#else
+    return frame.back.xyz;
+#endif
 }
 
 bool frontFacing() {

@@ -34,7 +34,9 @@ void main() {
     }
     for (int i = 0; i < 3; ++i) {
         gl_Position = gl_in[i].gl_Position;
+#ifdef HAS_POSITION
         surface.position = corner[i].position;
+#endif
 #ifdef HAS_NORMAL
         surface.normal = corner[i].normal;
 #endif

@@ -38,7 +38,9 @@ vec3 idColor(uint id) {
 void main() {
     vec4 local = vec4(position, 1.0);
     vec3 scene = vec3(dot(row_x, local), dot(row_y, local), dot(row_z, local));
+#ifdef HAS_POSITION
     surface.position = scene;
+#endif
 #if defined(HAS_NORMAL) || defined(MIXED_MIRROR)
     // Rows of the cofactor matrix: determinant times inverse transpose, so it is right under
     // shear and non-uniform scale, never divides, and turns normals of mirrored instances.

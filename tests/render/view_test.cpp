@@ -1,3 +1,4 @@
+#include "render/pick.h"
 #include "render/view.h"
 
 #include <cmath>
@@ -351,6 +352,58 @@ TEST_F(ViewTest, MeasuringCountsTheFramesAskedFor) {
     ASSERT_TRUE(report);
     EXPECT_EQ(report->frames, 3u);
     EXPECT_GT(report->mean_ms, 0.0);
+}
+
+TEST_F(ViewTest, PickFindsTheInstanceThatIsSeen) {
+    // Three squares: left; right, mirrored; in front of the right one a small one.
+    const auto scene = sceneOf(square(true), unlit(glm::vec4(1.0f)));
+    scene->instances.resize(3);
+    scene->instances[0].transform[3] = glm::dvec4(-1.0, 0.0, 0.0, 1.0);
+    scene->instances[1].transform[3] = glm::dvec4(1.0, 0.0, 0.0, 1.0);
+    scene->instances[1].transform[0][0] = -1.0;
+    scene->instances[2].transform[3] = glm::dvec4(1.0, 0.0, 0.5, 1.0);
+    scene->instances[2].transform[0][0] = 0.25;
+    scene->instances[2].transform[1][1] = 0.25;
+    load(scene);
+    for (const bool orthographic : {true, false}) {
+        input_.camera.orthographic = orthographic;
+        const auto picked_at = [&](double x, double y) { // x, y: -2..2, y up
+            return pick(input_, {(x + 2.0) / 4.0, (2.0 - y) / 4.0});
+        };
+        ASSERT_TRUE(picked_at(-1.0, 0.5));
+        EXPECT_EQ(picked_at(-1.0, 0.5)->instance, 0u);
+        EXPECT_EQ(picked_at(1.0, 0.5)->instance, 1u);
+        EXPECT_EQ(picked_at(1.0, 0.02)->instance, 2u);
+        EXPECT_NEAR(picked_at(-1.0, 0.5)->point.z, 0.0, 1e-9);
+        EXPECT_NEAR(picked_at(-1.0, 0.5)->point.x, -1.0, 0.05);
+        EXPECT_FALSE(picked_at(0.0, 1.5));
+    }
+    const glm::dvec2 left(0.25, 0.4);
+    setAxisView(input_.camera, AxisView::Back);
+    EXPECT_FALSE(pick(input_, left));
+    input_.options.back_faces = BackFaces::Shown;
+    EXPECT_EQ(pick(input_, left)->instance, 1u);
+    gpu_->setHiddenSubmeshes({true});
+    EXPECT_FALSE(pick(input_, left));
+}
+
+TEST_F(ViewTest, PickSeesTheLodThatIsDrawn) {
+    const auto scene = sceneOf(square(true), unlit(glm::vec4(1.0f)));
+    scene->instances.resize(2);
+    load(scene);
+    const glm::dvec2 lower_right(0.6, 0.7);
+    const glm::dvec2 upper_left(0.4, 0.3);
+    EXPECT_EQ(pick(input_, upper_left)->instance, 0u); // the first of two at the same place
+    Lod lod = fullLod(*scene);
+    auto triangle = std::make_shared<Geometry>(*lod.submeshes[0].primitives[0]);
+    triangle->indices = {0, 1, 2};
+    lod.submeshes[0].primitives[0] = triangle;
+    lod.submeshes[0].instance_order =
+        std::make_shared<const std::vector<std::uint32_t>>(std::vector<std::uint32_t>{1, 0});
+    lod.submeshes[0].kept_instances = 1;
+    ASSERT_TRUE(gpu_->update(lod_, lod));
+    EXPECT_FALSE(pick(input_, upper_left));
+    EXPECT_EQ(pick(input_, lower_right)->instance, 1u);
 }
 
 } // namespace
