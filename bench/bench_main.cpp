@@ -33,53 +33,66 @@ Section sceneSection(const std::string& title,
             }};
 }
 
-// The same rows for our own scene and, if a folder is given, for the one in it.
-void addBoth(std::vector<Section>& sections,
-             const std::string& title,
-             const std::string& name,
-             const std::function<Result<void>(Bench&, const ScenePtr&)>& add,
-             const std::string& given_folder) {
+using AddScene = std::function<Result<void>(Bench&, const ScenePtr&, SketchInput)>;
+
+// Rows for a scene of ours and, if a folder is given, for the one of the same name in it.
+struct SceneRows {
+    const char* title;
+    const char* name;
+    SketchInput ours; // what our scene is; a given one is the sketch's
+    AddScene add;
+};
+
+void addBoth(std::vector<Section>& sections, const SceneRows& rows, const std::string& given) {
     sections.push_back(sceneSection(
-        title, [name](Inputs& inputs) { return inputs.own(name); }, add));
-    if (!given_folder.empty())
+        rows.title,
+        [name = rows.name](Inputs& inputs) { return inputs.own(name); },
+        [rows](Bench& bench, const ScenePtr& scene) { return rows.add(bench, scene, rows.ours); }));
+    if (!given.empty())
         sections.push_back(sceneSection(
-            title + " (given)", [name](Inputs& inputs) { return inputs.given(name); }, add));
+            std::string(rows.title) + " (given)",
+            [name = rows.name](Inputs& inputs) { return inputs.given(name); },
+            [rows](Bench& bench, const ScenePtr& scene) {
+                return rows.add(bench, scene, SketchInput::Same);
+            }));
+}
+
+AddScene alone(const AloneTargets& targets) {
+    return [targets](Bench& bench, const ScenePtr& scene, SketchInput input) {
+        return addAloneRows(bench, scene, targets, input);
+    };
+}
+
+AddScene instanced(const InstancedTargets& targets) {
+    return [targets](Bench& bench, const ScenePtr& scene, SketchInput input) {
+        return addInstancedRows(bench, scene, targets, input);
+    };
 }
 
 std::vector<Section> allSections(const std::string& given) {
-    const auto bunny = [](Bench& bench, const ScenePtr& scene) {
-        return addAloneRows(bench, scene, bunnyTargets());
+    const auto equal = [](Bench& bench, const ScenePtr& scene, SketchInput) {
+        return addEqualRows(bench, scene);
     };
+    const auto cards = [](Bench& bench, const ScenePtr& scene, SketchInput) {
+        return addCardRows(bench, scene);
+    };
+    constexpr SketchInput kSame = SketchInput::Same;
+    constexpr SketchInput kAnother = SketchInput::Another;
     std::vector<Section> sections{sceneSection(
-        "Stanford bunny", [](Inputs& inputs) { return inputs.stanfordBunny(); }, bunny)};
-    addBoth(sections, "Our bunny", "bunny", bunny, "");
-    addBoth(
-        sections,
-        "Displaced sphere",
-        "sphere",
+        "Stanford bunny",
+        [](Inputs& inputs) { return inputs.stanfordBunny(); },
         [](Bench& bench, const ScenePtr& scene) {
-            return addAloneRows(bench, scene, sphereTargets());
-        },
-        given);
-    addBoth(
-        sections,
-        "Maple",
-        "maple",
-        [](Bench& bench, const ScenePtr& scene) {
-            return addInstancedRows(bench, scene, mapleTargets());
-        },
-        given);
-    addBoth(
-        sections,
-        "Village",
-        "village",
-        [](Bench& bench, const ScenePtr& scene) {
-            return addInstancedRows(bench, scene, villageTargets());
-        },
-        given);
-    addBoth(sections, "Maple at equal triangles", "maple", addEqualRows, given);
-    addBoth(sections, "Village at equal triangles", "village", addEqualRows, given);
-    addBoth(sections, "Leaf cards", "cards", addCardRows, given);
+            return addAloneRows(bench, scene, bunnyTargets(), kSame);
+        })};
+    addBoth(sections, {"Our bunny", "bunny", kAnother, alone(bunnyTargets())}, "");
+    for (const SceneRows& rows :
+         {SceneRows{"Displaced sphere", "sphere", kSame, alone(sphereTargets())},
+          SceneRows{"Maple", "maple", kAnother, instanced(mapleTargets())},
+          SceneRows{"Village", "village", kAnother, instanced(villageTargets())},
+          SceneRows{"Maple at equal triangles", "maple", kAnother, equal},
+          SceneRows{"Village at equal triangles", "village", kAnother, equal},
+          SceneRows{"Leaf cards", "cards", kSame, cards}})
+        addBoth(sections, rows, given);
     sections.push_back({"Read-out", addReadOutRows});
     sections.push_back({"Files and schedules", addFileRows});
     sections.push_back({"Memory", addMemoryRows});

@@ -24,6 +24,9 @@ struct Sketch {
     std::string mean;
 };
 
+// Whether a scene is the one that the sketch had; only then its errors are a target.
+enum class SketchInput : std::uint8_t { Same, Another };
+
 // meshoptimizer's seconds in the sketch's run.
 constexpr double kSketchBunnySeconds = 0.028;
 constexpr double kSketchSphereSeconds = 0.50;
@@ -39,7 +42,8 @@ struct AloneTargets {
 
 AloneTargets bunnyTargets();
 AloneTargets sphereTargets();
-Result<void> addAloneRows(Bench& bench, const ScenePtr& scene, const AloneTargets& targets);
+Result<void>
+addAloneRows(Bench& bench, const ScenePtr& scene, const AloneTargets& targets, SketchInput input);
 
 // --- instanced scenes: IAS against Quadric on the expansion
 
@@ -52,7 +56,10 @@ struct InstancedTargets {
 
 InstancedTargets mapleTargets();
 InstancedTargets villageTargets();
-Result<void> addInstancedRows(Bench& bench, const ScenePtr& scene, const InstancedTargets& targets);
+Result<void> addInstancedRows(Bench& bench,
+                              const ScenePtr& scene,
+                              const InstancedTargets& targets,
+                              SketchInput input);
 
 // IAS against each mesh alone, at equal instanced triangles.
 Result<void> addEqualRows(Bench& bench, const ScenePtr& scene);
@@ -78,6 +85,9 @@ Result<LodSourcePtr> prepareIas(const ScenePtr& scene, Ordering ordering);
 // meshoptimizer to 20 % of a scene of one mesh, equal positions welded beforehand.
 Work meshoptimizerWork(const ScenePtr& scene);
 
+// The Stanford bunny, our own without the models: what small things are timed against.
+Result<ScenePtr> anchorBunny(Inputs& inputs);
+
 // One row: seconds per simplified triangle over the anchor's seconds, against the sketch's.
 // seconds, anchor_seconds: [rounds]
 void addSketchTime(Table& table,
@@ -85,7 +95,8 @@ void addSketchTime(Table& table,
                    std::uint64_t triangles,
                    std::span<const std::vector<double>> seconds_and_anchor);
 
-// Rows: triangles left, maximum and mean at 20 %, against the sketch's.
-Result<Lod> addSketchQuality(Table& table, const LodSource& source, const Sketch& sketch);
+// Rows: triangles left, maximum and mean at 20 %, beside the sketch's. Returns that LOD.
+Result<Lod>
+addSketchQuality(Table& table, const LodSource& source, const Sketch& sketch, SketchInput input);
 
 } // namespace lodestone::bench

@@ -51,7 +51,8 @@ Result<void> addDistances(Bench& bench, const LodSource& source, const AloneTarg
 
 } // namespace
 
-Result<void> addAloneRows(Bench& bench, const ScenePtr& scene, const AloneTargets& targets) {
+Result<void>
+addAloneRows(Bench& bench, const ScenePtr& scene, const AloneTargets& targets, SketchInput input) {
     const std::vector<Contender> contenders{
         {[&]() -> Result<std::shared_ptr<const void>> { return prepareQuadric(scene); }, 1},
         {meshoptimizerWork(scene), 3}};
@@ -72,7 +73,7 @@ Result<void> addAloneRows(Bench& bench, const ScenePtr& scene, const AloneTarget
     if (!distances)
         return distances;
     addSketchTime(bench.table, targets.sketch, triangles, *seconds);
-    const Result<Lod> lod = addSketchQuality(bench.table, **source, targets.sketch);
+    const Result<Lod> lod = addSketchQuality(bench.table, **source, targets.sketch, input);
     return lod ? Result<void>() : tl::unexpected(lod.error());
 }
 

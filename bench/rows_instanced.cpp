@@ -32,11 +32,6 @@ struct Times {
     std::vector<double> sphere_anchor;
 };
 
-Result<ScenePtr> anchorBunny(Inputs& inputs) {
-    Result<ScenePtr> stanford = inputs.stanfordBunny();
-    return stanford && !*stanford ? inputs.own("bunny") : stanford;
-}
-
 Result<Times> timeAll(Bench& bench, const ScenePtr& scene, const ScenePtr& expanded) {
     const Result<ScenePtr> bunny = anchorBunny(bench.inputs);
     const Result<ScenePtr> sphere = bench.inputs.own("sphere");
@@ -79,7 +74,8 @@ void addSpeed(Bench& bench, const SceneCounts& counts, const Times& times, doubl
 Result<void> addSketches(Bench& bench,
                          const ScenePtr& scene,
                          const InstancedTargets& targets,
-                         const Times& times) {
+                         const Times& times,
+                         SketchInput input) {
     struct Row {
         const char* name;
         Ordering ordering;
@@ -97,10 +93,13 @@ Result<void> addSketches(Bench& bench,
         const Result<LodSourcePtr> source = prepareIas(scene, row.ordering);
         if (!source)
             return tl::unexpected(source.error());
-        bench.table.tell(row.name, "");
+        bench.table.tell(std::string(row.name) + ", wall time of its stages",
+                         fmt::format("sequences {}, schedule {}",
+                                     secondsText((*source)->seconds_sequence),
+                                     secondsText((*source)->seconds_schedule)));
         addSketchTime(
             bench.table, *row.sketch, unique, std::array{*row.seconds, times.bunny_anchor});
-        const Result<Lod> lod = addSketchQuality(bench.table, **source, *row.sketch);
+        const Result<Lod> lod = addSketchQuality(bench.table, **source, *row.sketch, input);
         if (!lod)
             return tl::unexpected(lod.error());
     }
@@ -109,8 +108,10 @@ Result<void> addSketches(Bench& bench,
 
 } // namespace
 
-Result<void>
-addInstancedRows(Bench& bench, const ScenePtr& scene, const InstancedTargets& targets) {
+Result<void> addInstancedRows(Bench& bench,
+                              const ScenePtr& scene,
+                              const InstancedTargets& targets,
+                              SketchInput input) {
     const Result<ScenePtr> expanded = expandScene(*scene, {});
     if (!expanded)
         return tl::unexpected(expanded.error());
@@ -119,18 +120,21 @@ addInstancedRows(Bench& bench, const ScenePtr& scene, const InstancedTargets& ta
         return tl::unexpected(times.error());
     const SceneCounts counts = countScene(*scene);
     addSpeed(bench, counts, *times, targets.speedup);
-    Result<void> added = addSketches(bench, scene, targets, *times);
+    Result<void> added = addSketches(bench, scene, targets, *times, input);
     if (!added || !targets.expanded)
         return added;
     const Result<LodSourcePtr> quadric = prepareQuadric(*expanded);
     if (!quadric)
         return tl::unexpected(quadric.error());
-    bench.table.tell("Quadric, expanded", "");
+    bench.table.tell("Quadric, expanded, wall time of its stages",
+                     fmt::format("sequences {}, schedule {}",
+                                 secondsText((*quadric)->seconds_sequence),
+                                 secondsText((*quadric)->seconds_schedule)));
     addSketchTime(bench.table,
                   *targets.expanded,
                   counts.triangles,
                   std::array{times->expanded, times->sphere_anchor});
-    const Result<Lod> lod = addSketchQuality(bench.table, **quadric, *targets.expanded);
+    const Result<Lod> lod = addSketchQuality(bench.table, **quadric, *targets.expanded, input);
     return lod ? Result<void>() : tl::unexpected(lod.error());
 }
 

@@ -22,6 +22,11 @@ Result<LodSourcePtr> prepareIas(const ScenePtr& scene, Ordering ordering) {
     return iasAlgorithm().prepare(scene, {}, {ordering, {}, {}}, {});
 }
 
+Result<ScenePtr> anchorBunny(Inputs& inputs) {
+    Result<ScenePtr> stanford = inputs.stanfordBunny();
+    return stanford && !*stanford ? inputs.own("bunny") : stanford;
+}
+
 Work meshoptimizerWork(const ScenePtr& scene) {
     auto welded = std::make_shared<const Geometry>(
         weldPositions(*scene->submeshes.front().primitives.front().geometry));
@@ -52,20 +57,33 @@ void addSketchTime(Table& table,
 
 namespace {
 
+struct SketchError {
+    const char* name;
+    double value;        // ours
+    std::string printed; // the sketch's
+};
+
 // Met if the value, rounded as the sketch's was printed, is no larger.
-void addSketchError(Table& table,
-                    const std::string& what,
-                    double value,
-                    const std::string& printed) {
-    const auto decimals = static_cast<int>(printed.size() - printed.find('.') - 1);
+void addSketchError(Table& table, const SketchError& error, SketchInput input) {
+    const std::string what = std::string("at 20 %: ") + error.name;
+    if (input == SketchInput::Another) {
+        table.tell(what, percentText(error.value), "sketch's scene: " + error.printed + " %");
+        return;
+    }
+    const auto decimals = static_cast<int>(error.printed.size() - error.printed.find('.') - 1);
     const double rounding = 0.5 * std::pow(10.0, -decimals);
-    table.atMost(
-        what, {value, std::stod(printed) + rounding, percentText(value), printed + " %", "sketch"});
+    table.atMost(what,
+                 {error.value,
+                  std::stod(error.printed) + rounding,
+                  percentText(error.value),
+                  error.printed + " %",
+                  "sketch"});
 }
 
 } // namespace
 
-Result<Lod> addSketchQuality(Table& table, const LodSource& source, const Sketch& sketch) {
+Result<Lod>
+addSketchQuality(Table& table, const LodSource& source, const Sketch& sketch, SketchInput input) {
     const double full = static_cast<double>(source.trianglesAt(0));
     Lod lod = lodAtTriangles(source, 0.2 * full);
     const Result<Distance> distance = distanceToFull({source.scene().get(), &lod});
@@ -77,8 +95,8 @@ Result<Lod> addSketchQuality(Table& table, const LodSource& source, const Sketch
                            countText(lod.instances),
                            countText(source.scene()->instances.size())),
                fmt::format("sketch: {}", countText(sketch.unique_left)));
-    addSketchError(table, "at 20 %: maximum distance", distance->hausdorff, sketch.hausdorff);
-    addSketchError(table, "at 20 %: mean distance", distance->mean, sketch.mean);
+    addSketchError(table, {"maximum distance", distance->hausdorff, sketch.hausdorff}, input);
+    addSketchError(table, {"mean distance", distance->mean, sketch.mean}, input);
     return lod;
 }
 
