@@ -114,6 +114,9 @@ struct ExportPlan {
     std::vector<std::uint32_t> first_child; // [nodes + 1] into children
     std::vector<std::uint32_t> children;
     std::vector<std::uint32_t> bottom_up; // nodes, children before parents
+    std::vector<std::uint32_t> parents;   // [nodes] as in NodePlan, close together
+    std::vector<std::uint32_t> always;    // nodes with that mark
+    std::vector<std::uint32_t> always_draws;
     std::vector<GroupPlan> groups;
     std::vector<InstancePlan> instances; // [scene.instances]
     std::vector<ScenePlan> scenes;

@@ -5,6 +5,8 @@
 #include "scene/gltf/writer_uri.h"
 
 #include <algorithm>
+#include <cmath>
+#include <compare>
 #include <tbb/parallel_for.h>
 
 namespace lodestone {
@@ -15,8 +17,11 @@ constexpr std::uint64_t kGlbHeaderBytes = 12;
 constexpr std::uint64_t kGlbChunkHeaderBytes = 8;
 // Characters that the name of the .bin has in the JSON, filled up with spaces after it.
 constexpr std::size_t kBufferNameWidth = 64;
-// Below this estimated gain of rows over nodes, both are counted exactly.
-constexpr double kCloseCallBytes = 400.0;
+// Where the estimated gain of rows over nodes is less, both are counted exactly: of one submesh,
+constexpr double kCloseCallBytes = 60.0;
+constexpr std::size_t kMostCloseCalls = 3;
+// and of all, as the extension is named twice.
+constexpr double kExtensionBytes = 400.0;
 
 std::string bufferUriText(const std::string& buffer_file) {
     const std::string name = percentEncoded(buffer_file);
@@ -28,13 +33,43 @@ std::string uriTextFor(const ExportPlan& plan, const std::string& buffer_file) {
     return plan.options.container == Container::Glb ? std::string() : bufferUriText(buffer_file);
 }
 
+// FNV-1a: the same on every machine.
+std::uint64_t stableHash(std::string_view text) {
+    std::uint64_t hash = 0xcbf29ce484222325ULL;
+    for (const char c : text)
+        hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+    return hash;
+}
+
+// A submesh that may be smaller either way.
+struct CloseCall {
+    double distance_bytes = 0.0; // from the estimated break-even
+    std::uint32_t submesh = 0;
+
+    auto operator<=>(const CloseCall&) const = default;
+};
+
+struct Candidate {
+    std::vector<bool> folds;
+    Layout layout;
+    std::uint64_t bytes = 0;
+
+    // Becomes the other one where that is smaller.
+    void improve(const ExportPlan& plan, const LodShape& shape, std::vector<bool> other_folds) {
+        Layout other = layOut(plan, shape, other_folds);
+        const std::uint64_t other_bytes = exportedBytes(plan, other);
+        if (other_bytes < bytes)
+            *this = {std::move(other_folds), std::move(other), other_bytes};
+    }
+};
+
 } // namespace
 
 std::string bufferFileName(const std::filesystem::path& gltf_path) {
     std::string stem = gltf_path.stem().string();
     constexpr std::string_view kExtension = ".bin";
     if (percentEncoded(stem).size() + kExtension.size() > kBufferNameWidth) {
-        const std::string mark = std::to_string(std::hash<std::string>{}(stem));
+        const std::string mark = std::to_string(stableHash(stem));
         while (percentEncoded(stem + mark).size() + kExtension.size() > kBufferNameWidth)
             stem.pop_back();
         stem += mark;
@@ -43,24 +78,36 @@ std::string bufferFileName(const std::filesystem::path& gltf_path) {
 }
 
 Layout chooseLayout(const ExportPlan& plan, const LodShape& shape) {
-    std::vector<bool> folds(plan.submeshes.size(), false);
+    Candidate best;
+    best.folds.assign(plan.submeshes.size(), false);
+    std::vector<CloseCall> close_calls;
     double gain_bytes = 0.0;
-    bool any = false;
-    for (std::size_t s = 0; s < folds.size(); ++s) {
+    for (std::uint32_t s = 0; s < plan.submeshes.size(); ++s) {
         const SubmeshPlan& submesh = plan.submeshes[s];
         const std::uint32_t kept = shape.submeshes[s].kept_instances;
-        folds[s] = kept > 0 && kept >= submesh.fold_from;
-        any |= folds[s];
-        if (folds[s])
-            gain_bytes +=
-                (submesh.node_bytes - submesh.row_bytes) * kept - submesh.fold_fixed_bytes;
+        if (kept == 0 || submesh.row_bytes == 0.0)
+            continue;
+        const double gain =
+            (submesh.node_bytes - submesh.row_bytes) * kept - submesh.fold_fixed_bytes;
+        best.folds[s] = kept >= submesh.fold_from;
+        gain_bytes += best.folds[s] ? gain : 0.0;
+        if (std::abs(gain) < kCloseCallBytes)
+            close_calls.push_back({std::abs(gain), s});
     }
-    Layout layout = layOut(plan, shape, folds);
-    if (plan.options.instancing != Instancing::Auto || !any || gain_bytes > kCloseCallBytes)
-        return layout;
-    Layout nodes = layOut(plan, shape, std::vector<bool>(folds.size(), false));
-    const bool nodes_are_smaller = exportedBytes(plan, nodes) < exportedBytes(plan, layout);
-    return nodes_are_smaller ? nodes : layout;
+    best.layout = layOut(plan, shape, best.folds);
+    if (plan.options.instancing != Instancing::Auto)
+        return std::move(best.layout);
+    best.bytes = exportedBytes(plan, best.layout);
+    std::ranges::sort(close_calls);
+    close_calls.resize(std::min(close_calls.size(), kMostCloseCalls));
+    for (const CloseCall& call : close_calls) {
+        std::vector<bool> other = best.folds;
+        other[call.submesh] = !other[call.submesh];
+        best.improve(plan, shape, std::move(other));
+    }
+    if (gain_bytes < kExtensionBytes)
+        best.improve(plan, shape, std::vector<bool>(best.folds.size(), false));
+    return std::move(best.layout);
 }
 
 std::uint64_t exportedBytes(const ExportPlan& plan, const Layout& layout) {

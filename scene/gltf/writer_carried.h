@@ -69,7 +69,7 @@ private:
     std::vector<nlohmann::json> accessors_;
     std::vector<View> views_;
     std::array<std::vector<std::byte>, 3> packed_; // [uses] accessors, one view for each use
-    std::vector<std::vector<std::byte>> strided_; // accessors of carried meshes
+    std::vector<std::vector<std::byte>> strided_;  // accessors of carried meshes
     std::string accessors_json_;
     std::string views_json_;
     std::uint64_t size_bytes_ = 0;

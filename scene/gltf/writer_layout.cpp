@@ -143,17 +143,14 @@ private:
     }
 
     void numberNodes() {
-        std::vector<bool> written(plan_.nodes.size(), false);
-        for (const std::uint32_t n : plan_.bottom_up) {
-            const NodePlan& node = plan_.nodes[n];
-            if (node.always_draws)
-                layout_.draws[n] = layout_.mesh_index[node.mesh] != kNone;
-            if (!node.always && !layout_.draws[n] && !written[n])
-                continue;
+        for (const std::uint32_t n : plan_.always_draws)
+            layout_.draws[n] = layout_.mesh_index[plan_.nodes[n].mesh] != kNone;
+        std::vector<bool> written = layout_.draws;
+        for (const std::uint32_t n : plan_.always)
             written[n] = true;
-            if (node.parent != kNone)
-                written[node.parent] = true;
-        }
+        for (const std::uint32_t n : plan_.bottom_up)
+            if (written[n] && plan_.parents[n] != kNone)
+                written[plan_.parents[n]] = true;
         std::uint32_t next = 0;
         for (std::size_t n = 0; n < written.size(); ++n)
             if (written[n])

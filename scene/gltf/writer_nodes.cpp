@@ -113,6 +113,18 @@ void orderBottomUp(ExportPlan& plan) {
     std::ranges::reverse(order);
 }
 
+// What every layout asks of every node, apart from what only the JSON needs.
+void listRoles(ExportPlan& plan) {
+    for (std::uint32_t n = 0; n < plan.nodes.size(); ++n) {
+        const NodePlan& node = plan.nodes[n];
+        plan.parents.push_back(node.parent);
+        if (node.always)
+            plan.always.push_back(n);
+        if (node.always_draws)
+            plan.always_draws.push_back(n);
+    }
+}
+
 } // namespace
 
 void planNodes(ExportPlan& plan, json& document, const std::set<std::uint32_t>& wanted) {
@@ -143,6 +155,7 @@ void planScenes(ExportPlan& plan,
     }
     listChildren(plan);
     orderBottomUp(plan);
+    listRoles(plan);
 }
 
 } // namespace lodestone

@@ -1,9 +1,12 @@
 #include "scene/export.h"
+#include "scene/scene_builder.h"
 #include "tests/scene/scene_fixtures.h"
 
 #include <array>
 #include <filesystem>
+#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
+#include <random>
 #include <unistd.h>
 
 namespace lodestone {
@@ -78,6 +81,55 @@ TEST(ByteModel, EveryTriangleAndInstanceLessIsStrictlySmaller) {
             before = after;
             if (shape.submeshes[0].kept_instances == 1)
                 break;
+        }
+    }
+}
+
+// Submeshes with few instances each, where rows and nodes weigh about the same.
+ScenePtr closeCallsScene(std::mt19937& random) {
+    std::uniform_real_distribution<double> place(-9.0, 9.0);
+    SceneBuilder builder("close calls");
+    const std::uint32_t submesh_count = 1 + static_cast<std::uint32_t>(random() % 5);
+    for (std::uint32_t s = 0; s < submesh_count; ++s) {
+        Submesh submesh;
+        submesh.primitives.push_back({});
+        submesh.primitives[0].geometry = fixtures::cubeGeometry();
+        const std::uint32_t index = builder.addSubmesh(std::move(submesh));
+        const bool named = random() % 2 == 0;
+        const double turn_rad = random() % 2 == 0 ? 0.0 : 1.0;
+        const std::uint32_t count = 1 + static_cast<std::uint32_t>(random() % 14);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const glm::dvec3 at(place(random), place(random), place(random));
+            builder.addNode(
+                named ? "a long name of a node " + std::to_string(i) : "",
+                kNone,
+                glm::rotate(glm::translate(glm::dmat4(1.0), at), turn_rad * i, {0.0, 1.0, 0.0}),
+                index);
+        }
+    }
+    return builder.finish();
+}
+
+TEST(ByteModel, AutoIsNeverLargerThanEitherWayAndFallsWithEveryInstance) {
+    std::mt19937 random(5);
+    for (int round = 0; round < 40; ++round) {
+        const ScenePtr scene = closeCallsScene(random);
+        const ByteModel automatic(scene, {Instancing::Auto});
+        const ByteModel nodes(scene, {Instancing::Nodes});
+        const ByteModel gpu(scene, {Instancing::Gpu});
+        LodShape shape = shapeOf(*scene, fullLod(*scene));
+        for (std::uint64_t before = ~std::uint64_t{0};;) {
+            const std::uint64_t bytes = automatic.bytes(shape);
+            ASSERT_LE(bytes, std::min(nodes.bytes(shape), gpu.bytes(shape))) << "round " << round;
+            ASSERT_LT(bytes, before) << "round " << round;
+            before = bytes;
+            std::vector<LodShape::SubmeshShape*> removable;
+            for (LodShape::SubmeshShape& submesh : shape.submeshes)
+                if (submesh.kept_instances > 1)
+                    removable.push_back(&submesh);
+            if (removable.empty())
+                break;
+            --removable[random() % removable.size()]->kept_instances;
         }
     }
 }
