@@ -192,21 +192,20 @@ void ComponentMesh::blendValues(std::uint32_t into, std::uint32_t from, float t)
     float* to = values_.data() + std::size_t{into} * attributes_.size;
     const float* other = values_.data() + std::size_t{from} * attributes_.size;
     for (const WedgeAttributes::Slot& slot : attributes_.slots[wedge_primitive_[into]]) {
+        const std::uint32_t blended = slot.tangent ? 3 : slot.components;
         float length2 = 0.0f;
-        const std::uint32_t unit_components = slot.tangent ? 3 : slot.components;
-        for (std::uint32_t c = 0; c < slot.components; ++c) {
-            float& value = to[slot.offset + c];
-            const float incoming = other[slot.offset + c];
-            if (slot.tangent && c == 3)
-                value = t < 0.5f ? value : incoming;
-            else
-                value += (incoming - value) * t;
-            if (c < unit_components)
-                length2 += value * value;
+        for (std::uint32_t c = slot.offset; c < slot.offset + blended; ++c) {
+            const float value = to[c] + (other[c] - to[c]) * t;
+            length2 += value * value;
         }
-        if (slot.unit && length2 > 0.0f)
-            for (std::uint32_t c = 0; c < unit_components; ++c)
-                to[slot.offset + c] /= std::sqrt(length2);
+        constexpr float kOpposite2 = 1e-6f; // opposite directions cancel: then the first one stays
+        if (slot.unit && !(length2 > kOpposite2))
+            continue;
+        const float scale = slot.unit ? 1.0f / std::sqrt(length2) : 1.0f;
+        for (std::uint32_t c = slot.offset; c < slot.offset + blended; ++c)
+            to[c] = (to[c] + (other[c] - to[c]) * t) * scale;
+        if (slot.tangent && slot.components == 4 && t > 0.5f)
+            to[slot.offset + 3] = other[slot.offset + 3];
     }
     if (t > 0.5f)
         wedge_carrier_[into] = wedge_carrier_[from];

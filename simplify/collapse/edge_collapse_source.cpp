@@ -138,12 +138,12 @@ void EdgeCollapseSource::fillSubmesh(std::size_t s, SubmeshState state, Lod& lod
     LodSubmesh& to = lod.submeshes[s];
     to.kept_instances = state.kept_instances;
     to.instance_order = removal.order;
-    const double growth = removal.possible() ? growthAt(removal, state.kept_instances) : 1.0;
-    if (state.step == 0 && growth == 1.0) {
+    if (state.step == 0 && state.kept_instances == set_->ranges[s].size()) {
         for (const Primitive& primitive : submesh.primitives)
             to.primitives.push_back(primitive.geometry);
         return;
     }
+    const double growth = removal.possible() ? growthAt(removal, state.kept_instances) : 1.0;
     to.primitives = readOutSubmesh(set_->sequences[s], submesh, state.step, growth, removal.pivot);
 }
 
@@ -169,19 +169,21 @@ Lod EdgeCollapseSource::readOut(std::uint64_t position, const Lod* previous) con
     return lod;
 }
 
-std::vector<SequenceRequest> requestsFor(const SequenceSet& set,
-                                         const EdgeCollapseOptions& options) {
+// Sets set.max_stretch, too.
+std::vector<SequenceRequest> requestsFor(SequenceSet& set, const EdgeCollapseOptions& options) {
     const Scene& scene = *set.scene;
     std::vector<SequenceRequest> requests(scene.submeshes.size());
+    set.max_stretch.resize(requests.size());
     tbb::parallel_for(std::size_t{0}, requests.size(), [&](std::size_t s) {
         requests[s].submesh = &scene.submeshes[s];
         requests[s].instance_count = set.ranges[s].size();
-        if (!options.weigh_instances)
-            return;
         std::vector<glm::dmat3> linear_parts;
         for (std::uint32_t i = set.ranges[s].begin; i < set.ranges[s].end; ++i)
             linear_parts.emplace_back(scene.instances[i].transform);
-        requests[s].weights = InstanceWeights(linear_parts);
+        InstanceWeights weights(linear_parts);
+        set.max_stretch[s] = weights.maxStretch();
+        if (options.weigh_instances)
+            requests[s].weights = std::move(weights);
     });
     return requests;
 }
@@ -199,8 +201,6 @@ Result<LodSourcePtr> prepareEdgeCollapse(ScenePtr scene,
     const Bounds bounds = robustWorldBounds(*set->scene);
     set->diagonal = bounds.diagonal() > 0.0 ? bounds.diagonal() : 1.0;
     const std::vector<SequenceRequest> requests = requestsFor(*set, options);
-    for (const SequenceRequest& request : requests)
-        set->max_stretch.push_back(request.weights.maxStretch());
     Result<std::vector<CollapseSequence>> sequences =
         buildSequences(requests, options.collapse, options.floors, job);
     if (!sequences)

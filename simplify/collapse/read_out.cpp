@@ -126,6 +126,13 @@ Attribute emptyLike(const Attribute& from, std::size_t vertices) {
     return to;
 }
 
+void scaleValues(Attribute& attribute, float scale) {
+    const std::size_t vertices = attribute.bytes.size() / attribute.stride();
+    for (std::size_t v = 0; v < vertices; ++v)
+        for (std::size_t c = 0; c < attribute.components; ++c)
+            setAttributeValue(attribute, v, c, attributeValue(attribute, v, c) * scale);
+}
+
 void ReadOut::fillCarried(const AliveWedges& alive, const Attribute& from, Attribute& to) const {
     const std::size_t stride = from.stride();
     for (std::size_t i = 0; i < alive.wedges.size(); ++i) {
@@ -196,6 +203,8 @@ GeometryPtr ReadOut::readPrimitive(std::size_t primitive) {
             std::vector<Attribute>& out = to->morph_targets.back().attributes;
             out.push_back(emptyLike(attribute, alive.wedges.size()));
             fillCarried(alive, attribute, out.back());
+            if (attribute.semantic == "POSITION" && scale != 1.0)
+                scaleValues(out.back(), static_cast<float>(scale));
         }
     }
     fillIndices(primitive, *to);

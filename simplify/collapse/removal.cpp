@@ -262,6 +262,8 @@ RemovalSequence planRemoval(const Scene& scene,
                             std::uint32_t submesh,
                             InstanceRange range,
                             const Bounds& scene_bounds) {
+    if (triangleCount(scene.submeshes[submesh]) == 0) // points and lines gain nothing by going
+        return {};
     const SubmeshFacts facts = factsOf(scene.submeshes[submesh]);
     const std::vector<Member> members = membersOf(scene, range, facts, scene_bounds);
     std::vector<std::uint32_t> order = removalOrder(members);

@@ -34,7 +34,7 @@ public:
                const ByteModel& bytes)
         : sequence_(set.sequences[submesh]), removal_(set.removals[submesh]),
           instances_(set.ranges[submesh].size()), ordering_(options.ordering) {
-        if (!options.importance.empty())
+        if (submesh < options.importance.size())
             importance_ = options.importance[submesh];
         if (ordering_ != Ordering::Byte)
             return;
@@ -143,7 +143,7 @@ Schedule::Schedule(const SequenceSet& set, const ScheduleOptions& options, const
     for (std::size_t s = 0; s < set.sequences.size(); ++s)
         readers.emplace_back(set, s, options, bytes);
     tbb::parallel_for(std::size_t{0}, readers.size(), [&](std::size_t s) {
-        if (options.locked.empty() || !options.locked[s])
+        if (s >= options.locked.size() || !options.locked[s])
             blocks[s] = poolSteps(readers[s], options.ordering);
     });
     std::priority_queue<Head, std::vector<Head>, std::greater<>> heads;
