@@ -1,5 +1,7 @@
 #include "render/draw_pass.h"
 
+#include "render/transparency.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -208,8 +210,8 @@ private:
     std::uint32_t material_ = kNone;
 };
 
-void drawItem(const DrawItem& item) {
-    const auto instances = static_cast<GLsizei>(item.kept_instances);
+void drawItem(const DrawItem& item, std::uint32_t instance_count) {
+    const auto instances = static_cast<GLsizei>(instance_count);
     const GLenum mode = glMode(item.mode);
     if (item.geometry->index_count > 0)
         glDrawElementsInstanced(mode,
@@ -255,6 +257,57 @@ void resetState() {
     glActiveTexture(GL_TEXTURE0);
 }
 
+// Draws items, counting.
+class ItemDrawer {
+public:
+    ItemDrawer(const View::Input& input, const Antialiasing& antialiasing)
+        : input_(input), scene_(input.scene->state()),
+          binder_(scene_, input.options, antialiasing.samples) {}
+
+    Result<void> drawAll(const std::vector<DrawItem>& items) {
+        const std::vector<BlendedInstance> sorted = backToFront(input_);
+        for (const DrawItem& item : items) {
+            if (!scene_.hidden.empty() && scene_.hidden[item.submesh])
+                continue;
+            if (!sorted.empty() && isBlended(item, scene_, input_.options.shading))
+                continue;
+            if (Result<void> drawn = draw(item, item.kept_instances); !drawn)
+                return drawn;
+        }
+        return drawSorted(sorted);
+    }
+
+    const DrawTotals& totals() const { return totals_; }
+
+private:
+    Result<void> draw(const DrawItem& item, std::uint32_t instance_count) {
+        if (Result<void> bound = binder_.bind(item); !bound)
+            return bound;
+        drawItem(item, instance_count);
+        ++totals_.draw_calls;
+        if (item.mode == PrimitiveMode::Triangles)
+            totals_.triangles += std::uint64_t(item.geometry->index_count / 3) * instance_count;
+        return {};
+    }
+
+    Result<void> drawSorted(const std::vector<BlendedInstance>& sorted) {
+        for (const BlendedInstance& blended : sorted) {
+            glBindVertexArray(blended.item->vertex_array.name());
+            pointAtInstances(*blended.item->instances, blended.place);
+            Result<void> drawn = draw(*blended.item, 1);
+            pointAtInstances(*blended.item->instances, 0);
+            if (!drawn)
+                return drawn;
+        }
+        return {};
+    }
+
+    const View::Input& input_;
+    const GpuSceneState& scene_;
+    ItemBinder binder_;
+    DrawTotals totals_;
+};
+
 } // namespace
 
 void drawBackground(const RendererState& renderer, const ViewOptions& options) {
@@ -283,30 +336,17 @@ void drawBackground(const RendererState& renderer, const ViewOptions& options) {
 
 Result<DrawTotals> drawLod(const View::Input& input, const Antialiasing& antialiasing) {
     const GpuSceneState& scene = input.scene->state();
-    const LodState& lod = *input.lod->state();
     setFixedState();
     const FrameBlock block = frameBlock(input, scene.frame, antialiasing);
     glBindBuffer(GL_UNIFORM_BUFFER, scene.renderer->frameBuffer());
     glBufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STREAM_DRAW);
     glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, scene.renderer->frameBuffer());
-    DrawTotals totals;
-    ItemBinder binder(scene, input.options, antialiasing.samples);
-    Result<void> bound;
-    for (const DrawItem& item : lod.items) {
-        if (!scene.hidden.empty() && scene.hidden[item.submesh])
-            continue;
-        bound = binder.bind(item);
-        if (!bound)
-            break;
-        drawItem(item);
-        ++totals.draw_calls;
-        if (item.mode == PrimitiveMode::Triangles)
-            totals.triangles += std::uint64_t(item.geometry->index_count / 3) * item.kept_instances;
-    }
+    ItemDrawer drawer(input, antialiasing);
+    const Result<void> drawn = drawer.drawAll(input.lod->state()->items);
     resetState();
-    if (!bound)
-        return tl::unexpected(bound.error());
-    return totals;
+    if (!drawn)
+        return tl::unexpected(drawn.error());
+    return drawer.totals();
 }
 
 } // namespace lodestone

@@ -182,6 +182,10 @@ std::shared_ptr<const GpuGeometry>
 uploadGeometry(const GeometryPtr& source, const LocalFrame& frame, const GeometryWish& wish) {
     auto gpu = std::make_shared<GpuGeometry>();
     gpu->source = source;
+    Bounds box;
+    for (const glm::vec3& position : source->positions)
+        box.add(glm::dvec3(position));
+    gpu->source_center = box.center();
     const bool smooth =
         wish.missing_normals == MissingNormals::Smooth && lacksNormals(*source, wish.mode);
     const Geometry smoothed = smooth ? withSmoothNormals(*source) : Geometry();
@@ -223,6 +227,23 @@ uploadInstances(const InstanceSource& source,
     return buffer;
 }
 
+void pointAtInstances(const InstanceBuffer& instances, std::uint32_t first) {
+    const std::size_t begin = std::size_t(first) * sizeof(InstanceRow);
+    glBindBuffer(GL_ARRAY_BUFFER, instances.rows.name());
+    for (GLuint row = 0; row < 3; ++row)
+        glVertexAttribPointer(5 + row,
+                              4,
+                              GL_FLOAT,
+                              GL_FALSE,
+                              sizeof(InstanceRow),
+                              reinterpret_cast<const void*>(begin + row * sizeof(glm::vec4)));
+    glVertexAttribIPointer(8,
+                           1,
+                           GL_UNSIGNED_INT,
+                           sizeof(InstanceRow),
+                           reinterpret_cast<const void*>(begin + offsetof(InstanceRow, id)));
+}
+
 GlVertexArray makeVertexArray(const GpuGeometry& geometry, const InstanceBuffer& instances) {
     GlVertexArray array = GlVertexArray::create();
     glBindVertexArray(array.name());
@@ -247,24 +268,11 @@ GlVertexArray makeVertexArray(const GpuGeometry& geometry, const InstanceBuffer&
     if ((layout.features & kHasColor) != 0)
         attribute(4, 4, GL_UNSIGNED_SHORT, layout.color_offset);
 
-    glBindBuffer(GL_ARRAY_BUFFER, instances.rows.name());
-    for (GLuint row = 0; row < 3; ++row) {
-        glEnableVertexAttribArray(5 + row);
-        glVertexAttribPointer(5 + row,
-                              4,
-                              GL_FLOAT,
-                              GL_FALSE,
-                              sizeof(InstanceRow),
-                              reinterpret_cast<const void*>(row * sizeof(glm::vec4)));
-        glVertexAttribDivisor(5 + row, 1);
+    pointAtInstances(instances, 0);
+    for (GLuint index = 5; index <= 8; ++index) {
+        glEnableVertexAttribArray(index);
+        glVertexAttribDivisor(index, 1);
     }
-    glEnableVertexAttribArray(8);
-    glVertexAttribIPointer(8,
-                           1,
-                           GL_UNSIGNED_INT,
-                           sizeof(InstanceRow),
-                           reinterpret_cast<const void*>(offsetof(InstanceRow, id)));
-    glVertexAttribDivisor(8, 1);
     if (geometry.indices)
         glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, geometry.indices.name());
     glBindVertexArray(0);

@@ -29,7 +29,8 @@ struct VertexLayout {
 };
 
 struct GpuGeometry {
-    GeometryPtr source; // keeps the identity it is cached by
+    GeometryPtr source;            // keeps the identity it is cached by
+    glm::dvec3 source_center{0.0}; // middle of its box
     GlBuffer vertices;
     GlBuffer indices;
     VertexLayout layout;
@@ -82,6 +83,10 @@ struct InstanceSource {
 std::shared_ptr<const InstanceBuffer>
 uploadInstances(const InstanceSource& source,
                 std::shared_ptr<const std::vector<std::uint32_t>> order);
+
+// Attributes 5..8 of the bound vertex array: instance 0 is the one at `first`. OpenGL 3.3 has no
+// base instance.
+void pointAtInstances(const InstanceBuffer& instances, std::uint32_t first);
 
 // Attributes 0..4 from the geometry, 5..8 from the instances, indices bound.
 GlVertexArray makeVertexArray(const GpuGeometry& geometry, const InstanceBuffer& instances);

@@ -192,6 +192,31 @@ TEST_F(ViewTest, AlphaMaskCutsAndBlendMixes) {
     expectColor(at(draw(), 0.0, 0.0), {128, 128, 128, 255});
 }
 
+TEST_F(ViewTest, TransparentInstancesAreDrawnBackToFront) {
+    Material red = unlit({1.0f, 0.0f, 0.0f, 0.5f});
+    red.alpha_mode = AlphaMode::Blend;
+    red.double_sided = true;
+    const auto scene = sceneOf(square(true), red);
+    scene->materials.push_back(red);
+    scene->materials[1].base_color = {0.0f, 1.0f, 0.0f, 0.5f};
+    scene->submeshes.push_back(scene->submeshes[0]);
+    scene->submeshes[1].primitives[0].material = 1;
+    scene->instances.resize(3); // red nearest and farthest, green between
+    scene->instances[2].submesh = 1;
+    for (int i = 0; i < 3; ++i)
+        scene->instances[static_cast<std::size_t>(i)].transform[3].z = i == 2 ? 0.0 : 1.0 - 2.0 * i;
+    load(scene);
+    for (const AxisView side : {AxisView::Front, AxisView::Back}) {
+        setAxisView(input_.camera, side);
+        expectColor(at(draw(), 0.0, 0.0), {159, 64, 0, 255}); // 1/8 + 1/2 red, 1/4 green
+        EXPECT_EQ(report_.draw_calls, 3u);
+        EXPECT_EQ(report_.triangles, 6u);
+    }
+    input_.options.shading = Shading::Clay; // opaque: one call each
+    draw();
+    EXPECT_EQ(report_.draw_calls, 2u);
+}
+
 TEST_F(ViewTest, MirroredInstancesKeepFacingAndCulling) {
     const auto scene = sceneOf(square(true), unlit(glm::vec4(1.0f)));
     scene->instances[0].transform[0][0] = -1.0;
