@@ -1,0 +1,199 @@
+// Every real model out and in again, by every kind of instancing and both containers.
+// LODESTONE_KEEP_EXPORTS=DIR keeps the files there, for a validator to look at.
+#include "scene/export.h"
+#include "scene/gltf/source_document.h"
+#include "scene/import.h"
+#include "tests/models_folder.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <string>
+#include <unistd.h>
+
+namespace lodestone {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using tests::modelsFolder;
+
+struct Way {
+    const char* name;
+    const char* extension;
+    Instancing instancing;
+};
+
+constexpr std::array kWays{
+    Way{"auto", ".glb", Instancing::Auto},
+    Way{"auto", ".gltf", Instancing::Auto},
+    Way{"nodes", ".glb", Instancing::Nodes},
+    Way{"nodes", ".gltf", Instancing::Nodes},
+    Way{"gpu", ".glb", Instancing::Gpu},
+    Way{"gpu", ".gltf", Instancing::Gpu},
+    Way{"expand", ".glb", Instancing::Expand},
+    Way{"expand", ".gltf", Instancing::Expand},
+};
+
+// Relative to the models' folder; the hostile ones are not meant to load.
+std::vector<std::string> modelFiles() {
+    constexpr std::array kExtensions{
+        ".gltf", ".glb", ".dae", ".3ds", ".obj", ".ply", ".stl", ".fbx"};
+    std::vector<std::string> files;
+    std::error_code error;
+    for (const auto& entry : fs::recursive_directory_iterator(modelsFolder(), error)) {
+        std::string extension = entry.path().extension().string();
+        std::ranges::transform(extension, extension.begin(), [](unsigned char c) {
+            return static_cast<char>(std::tolower(c));
+        });
+        const std::string file = entry.path().lexically_relative(modelsFolder()).generic_string();
+        if (!file.starts_with("bad/") &&
+            std::ranges::find(kExtensions, extension) != kExtensions.end())
+            files.push_back(file);
+    }
+    std::ranges::sort(files);
+    return files;
+}
+
+std::string wordFor(std::string file) {
+    std::ranges::replace_if(
+        file, [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+    return file;
+}
+
+std::uint64_t folderBytes(const fs::path& folder) {
+    std::uint64_t bytes = 0;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+        bytes += entry.is_regular_file() ? entry.file_size() : 0;
+    return bytes;
+}
+
+// A list of the document without what an export renumbers or moves.
+json untouched(const Scene& scene, const char* list) {
+    const auto found = scene.source->json.find(list);
+    if (found == scene.source->json.end() || found->empty())
+        return nullptr;
+    json entries = *found;
+    for (json& entry : entries) {
+        for (const char* key : {"bufferView", "uri", "mimeType", "inverseBindMatrices"})
+            entry.erase(key);
+        for (const char* key : {"joints", "skeleton"})
+            entry.erase(key);
+        for (const char* key : {"samplers", "channels"})
+            if (const auto parts = entry.find(key); parts != entry.end() && parts->is_array())
+                for (json& part : *parts) {
+                    part.erase("input");
+                    part.erase("output");
+                    if (part.contains("target"))
+                        part["target"].erase("node");
+                }
+    }
+    return entries;
+}
+
+class ModelsExport : public ::testing::TestWithParam<std::string> {
+protected:
+    void SetUp() override {
+        const char* kept = std::getenv("LODESTONE_KEEP_EXPORTS");
+        keep_ = kept != nullptr && *kept != '\0';
+        const fs::path base =
+            keep_ ? fs::path(kept)
+                  : fs::temp_directory_path() / ("lodestone_models_" + std::to_string(::getpid()));
+        folder_ = base / wordFor(GetParam());
+        fs::remove_all(folder_);
+    }
+
+    void TearDown() override {
+        if (!keep_)
+            fs::remove_all(folder_.parent_path());
+    }
+
+    // The scene as it came back; null where the export failed.
+    ScenePtr sent(const ScenePtr& scene, const Way& way) {
+        const fs::path folder = folder_ / (way.name + std::string(way.extension));
+        fs::create_directories(folder);
+        const fs::path path = folder / (wordFor(GetParam()) + way.extension);
+        const bool single = std::string_view(way.extension) == ".glb";
+        const ExportOptions options{way.instancing, single ? Container::Glb : Container::Gltf};
+        const Lod lod = fullLod(*scene);
+        const auto report = exportScene(*scene, lod, path, options);
+        if (!report) {
+            ADD_FAILURE() << report.error().message;
+            return nullptr;
+        }
+        EXPECT_EQ(report->bytes, folderBytes(folder)) << path;
+        EXPECT_EQ(ByteModel(scene, options).bytes(shapeOf(*scene, lod)), report->bytes) << path;
+        const auto again = importScene(path, {});
+        if (!again) {
+            ADD_FAILURE() << again.error().message;
+            return nullptr;
+        }
+        return *again;
+    }
+
+    fs::path folder_;
+    bool keep_ = false;
+};
+
+void expectSameShape(const Scene& before, const Scene& after, bool expanded) {
+    const SceneCounts was = countScene(before);
+    const SceneCounts is = countScene(after);
+    EXPECT_EQ(is.triangles, was.triangles);
+    if (!expanded) {
+        EXPECT_EQ(is.instances, was.instances);
+        EXPECT_EQ(is.unique_triangles, was.unique_triangles);
+    }
+    const Bounds old_bounds = worldBounds(before);
+    const Bounds new_bounds = worldBounds(after);
+    const double tolerance = 1e-5 * old_bounds.diagonal() + 1e-9;
+    EXPECT_LE(glm::length(new_bounds.min - old_bounds.min), tolerance);
+    EXPECT_LE(glm::length(new_bounds.max - old_bounds.max), tolerance);
+}
+
+void expectSameRest(const Scene& before, const Scene& after) {
+    for (const char* list :
+         {"materials", "textures", "samplers", "images", "cameras", "animations", "skins"})
+        EXPECT_EQ(untouched(after, list), untouched(before, list)) << list;
+    for (const char* key : {"extras", "extensions"})
+        EXPECT_EQ(after.source->json.value(key, json()).is_null(),
+                  before.source->json.value(key, json()).is_null())
+            << key;
+    ASSERT_EQ(after.images.size(), before.images.size());
+    for (std::size_t i = 0; i < before.images.size(); ++i) {
+        ASSERT_EQ(after.images[i].bytes != nullptr, before.images[i].bytes != nullptr);
+        EXPECT_TRUE(!before.images[i].bytes || !after.images[i].bytes ||
+                    *after.images[i].bytes == *before.images[i].bytes)
+            << "image " << i;
+    }
+}
+
+TEST_P(ModelsExport, ComesBackAsPredictedAndWithEverythingItHad) {
+    const auto scene = importScene(modelsFolder() / GetParam(), {});
+    if (!scene)
+        GTEST_SKIP() << scene.error().message;
+    for (const Way& way : kWays) {
+        SCOPED_TRACE(way.name + std::string(way.extension));
+        const ScenePtr again = sent(*scene, way);
+        if (!again)
+            continue;
+        expectSameShape(**scene, *again, way.instancing == Instancing::Expand);
+        expectSameRest(**scene, *again);
+    }
+}
+
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(ModelsExport);
+INSTANTIATE_TEST_SUITE_P(Models,
+                         ModelsExport,
+                         ::testing::ValuesIn(modelFiles()),
+                         [](const auto& file) { return wordFor(file.param); });
+
+// Without models there is nothing to sweep; with CI=true that is a failure.
+class ModelsExportFolder : public tests::ModelsTest {};
+
+TEST_F(ModelsExportFolder, HasModelsOfEveryFormat) {
+    EXPECT_GT(modelFiles().size(), 60U);
+}
+
+} // namespace
+} // namespace lodestone
