@@ -262,6 +262,7 @@ Complex buildComplex(const Submesh& submesh, const JobContext& job) {
     }
     if (!job.stopRequested())
         findComponents(complex);
+    complex.bulk = findBulk(complex.positions);
     return complex;
 }
 

@@ -3,6 +3,7 @@
 // on wedges (a wedge is a vertex of the file; several may share a position along a seam).
 #include "scene/job_context.h"
 #include "scene/scene.h"
+#include "simplify/collapse/bulk.h"
 
 #include <array>
 
@@ -13,6 +14,7 @@ struct Complex {
     std::vector<std::uint32_t> wedge_source;         // [wedges] vertex in its primitive's geometry
     std::vector<std::uint32_t> wedge_vertex;         // [wedges] welded vertex
     std::vector<glm::vec3> positions;                // [vertices]
+    Bulk bulk;                                       // of positions
     std::vector<std::array<std::uint32_t, 3>> faces; // [faces] wedges; none degenerate
     std::vector<std::uint32_t> wedge_begin;          // [primitives + 1]
     std::vector<std::uint32_t> face_begin;           // [primitives + 1]

@@ -60,21 +60,40 @@ void ComponentMesh::buildVertices(std::size_t component) {
             faces_[f][k] = local_of_vertex_[vertex];
             face_wedges_[f][k] = local_of_wedge_[wedge];
         }
-    Bounds bounds;
+    placeVertices(ids);
     for (const std::uint32_t id : ids)
-        bounds.add(glm::dvec3(complex_.positions[id]));
+        local_of_vertex_[id] = kNone;
+    for (const std::uint32_t wedge : log_.wedges)
+        local_of_wedge_[wedge] = kNone;
+}
+
+// Origin, scale and positions. Vertices absurdly far out do not set the scale: they are locked and
+// reckoned with as if they lay a few sizes away.
+void ComponentMesh::placeVertices(std::span<const std::uint32_t> ids) {
+    constexpr double kRim = 4.0;
+    Bounds bounds;
+    Bounds bulk;
+    for (const std::uint32_t id : ids) {
+        const glm::dvec3 p(complex_.positions[id]);
+        bounds.add(p);
+        if (complex_.bulk.holds(p))
+            bulk.add(p);
+    }
+    if (bulk.diagonal() > 0.0)
+        bounds = bulk;
     origin_ = bounds.center();
     scale_ = bounds.diagonal() > 0.0 ? bounds.diagonal() : 1.0;
     points_.assign(ids.size(), {});
     metrics_.assign(ids.size(), {});
     for (std::size_t v = 0; v < ids.size(); ++v) {
-        const glm::dvec3 p = (glm::dvec3(complex_.positions[ids[v]]) - origin_) / scale_;
+        glm::dvec3 p = (glm::dvec3(complex_.positions[ids[v]]) - origin_) / scale_;
+        if (const double distance = glm::length(p); distance > kRim) { // never inside the bounds
+            p *= kRim / distance;
+            metrics_[v].locked = true;
+        }
         points_[v].position = {
             static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-        local_of_vertex_[ids[v]] = kNone;
     }
-    for (const std::uint32_t wedge : log_.wedges)
-        local_of_wedge_[wedge] = kNone;
 }
 
 void ComponentMesh::buildReferences() {
@@ -193,7 +212,10 @@ void ComponentMesh::addFaceQuadric(std::uint32_t face) {
     const Float3 normal = faceNormal(faces_[face]);
     const float length = std::sqrt(dot(normal, normal));
     normals_[face] = length > 0.0f ? normal * (1.0f / length) : Float3{};
-    if (!(length > 0.0f))
+    const Corners& corners = faces_[face];
+    const bool out = metrics_[corners[0]].locked || metrics_[corners[1]].locked ||
+                     metrics_[corners[2]].locked; // then its area means nothing
+    if (out || !(length > 0.0f))
         return;
     const Float3 unit = normals_[face];
     float weight = 0.5f * length;
@@ -206,7 +228,36 @@ void ComponentMesh::addFaceQuadric(std::uint32_t face) {
         metrics_[v].quadric = sum(metrics_[v].quadric, quadric);
 }
 
-// Borders: edges with one face, or with two that lie back to back.
+// Whether the material, a texture coordinate or a colour changes across the edge of two faces.
+// Normals do not count: where they change, the planes of the faces do too.
+bool ComponentMesh::seamBetween(std::uint32_t face_a,
+                                std::uint32_t face_b,
+                                std::uint32_t vertex) const {
+    if (face_wedges_.empty())
+        return false;
+    const auto wedgeAt = [&](std::uint32_t face) {
+        const Corners& corners = faces_[face];
+        const std::size_t k = corners[0] == vertex ? 0 : corners[1] == vertex ? 1 : 2;
+        return face_wedges_[face][k];
+    };
+    const std::uint32_t m = wedgeAt(face_a);
+    const std::uint32_t n = wedgeAt(face_b);
+    if (m == n)
+        return false;
+    if (wedge_primitive_[m] != wedge_primitive_[n])
+        return true;
+    const auto differs = [&](const WedgeAttributes::Slot& slot) {
+        const auto at = [&](std::uint32_t wedge) {
+            return values_.begin() +
+                   static_cast<std::ptrdiff_t>(wedge * attributes_.size + slot.offset);
+        };
+        return !slot.unit && !std::equal(at(m), at(m) + slot.components, at(n));
+    };
+    return std::ranges::any_of(attributes_.slots[wedge_primitive_[m]], differs);
+}
+
+// Borders: edges with one face, or with two that lie back to back. Seams get the same constraint,
+// so that a flat chequerboard keeps its squares, but may collapse like inner edges.
 void ComponentMesh::addBoundaryQuadrics(std::uint32_t a) {
     const std::uint32_t border = nextStamp();
     const std::uint32_t inner = nextStamp();
@@ -217,10 +268,14 @@ void ComponentMesh::addBoundaryQuadrics(std::uint32_t a) {
             if (points_[b].mark < border) {
                 points_[b].mark = border;
                 mark_face_[b] = face;
-            } else if (points_[b].mark == inner ||
-                       !(dot(normals_[mark_face_[b]], normals_[face]) < kBackToBack)) {
-                points_[b].mark = inner;
+                continue;
             }
+            const std::uint32_t first = mark_face_[b];
+            if (points_[b].mark == inner || dot(normals_[first], normals_[face]) < kBackToBack)
+                continue;
+            points_[b].mark = inner;
+            if (seamBetween(first, face, a) || seamBetween(first, face, b))
+                addBoundaryQuadric(a, b, first);
         }
     for (const std::uint32_t face : facesAround(a))
         for (const std::uint32_t b : faces_[face])

@@ -163,11 +163,13 @@ private:
     };
 
     void buildVertices(std::size_t component);
+    void placeVertices(std::span<const std::uint32_t> ids);
     void buildReferences();
     void fillRings();
     void buildWedges();
     void buildQuadrics();
     void addFaceQuadric(std::uint32_t face);
+    bool seamBetween(std::uint32_t face_a, std::uint32_t face_b, std::uint32_t vertex) const;
     void addBoundaryQuadrics(std::uint32_t a);
     void addBoundaryQuadric(std::uint32_t a, std::uint32_t b, std::uint32_t face);
     Float3 faceNormal(const Corners& face) const; // not normalised

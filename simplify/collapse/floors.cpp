@@ -23,8 +23,11 @@ Measure measureAt(const CollapseSequence& sequence, const Submesh& submesh, std:
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t wedge = stands_for[complex.faces[f][k]];
             corner[k] = glm::dvec3(wedgePosition(sequence, submesh, wedge, step));
-            measure.bounds.add(corner[k]);
         }
+        if (!std::ranges::all_of(corner, [&](const auto& p) { return complex.bulk.holds(p); }))
+            continue;
+        for (const glm::dvec3& p : corner)
+            measure.bounds.add(p);
         measure.area += 0.5 * glm::length(glm::cross(corner[1] - corner[0], corner[2] - corner[0]));
     }
     return measure;

@@ -78,22 +78,18 @@ namespace {
 std::vector<std::uint32_t> orderSteps(std::span<const CollapseLog> logs,
                                       std::span<const double> cost_scales,
                                       std::uint32_t first_step) {
-    double largest = 0.0;
     std::size_t total = 0;
-    for (std::size_t c = 0; c < logs.size(); ++c) {
-        total += logs[c].cost.size();
-        for (const float cost : logs[c].cost)
-            largest = std::max(largest, static_cast<double>(cost) * cost_scales[c]);
-    }
-    const double unit = largest > 0.0 ? 1e30 / largest : 1.0;
+    for (const CollapseLog& log : logs)
+        total += log.cost.size();
     std::vector<std::uint64_t> keys;
     keys.reserve(total);
     for (std::size_t c = 0; c < logs.size(); ++c) {
         double running = 0.0; // a dear head holds back the cheap steps behind it
         for (const float cost : logs[c].cost) {
-            running = std::max(running, static_cast<double>(cost) * cost_scales[c] * unit);
-            const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(running));
-            keys.push_back(std::uint64_t{bits} << 32 | keys.size());
+            running = std::max(running, static_cast<double>(cost) * cost_scales[c]);
+            // The double without its sign and lowest bits: every scale, to seven digits.
+            const std::uint64_t bits = std::bit_cast<std::uint64_t>(running) >> 31;
+            keys.push_back(bits << 32 | keys.size());
         }
     }
     if (logs.size() > 1)
