@@ -63,6 +63,30 @@ float roughnessOf(float shininess) {
     return std::clamp(std::pow(2.0f / (std::max(shininess, 0.0f) + 2.0f), 0.25f), 0.0f, 1.0f);
 }
 
+// Those that convert() fills.
+constexpr std::array kTextures{
+    &Material::base_color_texture, &Material::normal_texture, &Material::emissive_texture};
+
+std::uint32_t setsNeeded(const Material& material) {
+    std::uint32_t sets = 0;
+    for (const auto texture : kTextures)
+        if ((material.*texture).image != kNone)
+            sets = std::max(sets, (material.*texture).texcoord + 1);
+    return sets;
+}
+
+// A texture without coordinates says nothing, and glTF forbids it.
+Material limitedTo(std::uint32_t texcoord_sets, Material material) {
+    for (const auto texture : kTextures) {
+        if (texcoord_sets == 0)
+            material.*texture = {};
+        else
+            (material.*texture).texcoord =
+                std::min((material.*texture).texcoord, texcoord_sets - 1);
+    }
+    return material;
+}
+
 } // namespace
 
 MaterialConverter::MaterialConverter(const aiScene& scene,
@@ -70,14 +94,18 @@ MaterialConverter::MaterialConverter(const aiScene& scene,
                                      SceneBuilder& builder)
     : scene_(scene), folder_(folder), builder_(builder) {}
 
-std::uint32_t MaterialConverter::material(std::uint32_t index) {
+std::uint32_t MaterialConverter::material(std::uint32_t index, std::uint32_t texcoord_sets) {
     if (index >= scene_.mNumMaterials)
         return kNone;
-    const auto known = materials_.find(index);
+    auto found = converted_.find(index);
+    if (found == converted_.end())
+        found = converted_.emplace(index, convert(*scene_.mMaterials[index])).first;
+    const std::uint32_t sets = std::min(texcoord_sets, setsNeeded(found->second));
+    const auto known = materials_.find({index, sets});
     if (known != materials_.end())
         return known->second;
-    const std::uint32_t added = builder_.addMaterial(convert(*scene_.mMaterials[index]));
-    materials_.emplace(index, added);
+    const std::uint32_t added = builder_.addMaterial(limitedTo(sets, found->second));
+    materials_.emplace(std::pair(index, sets), added);
     return added;
 }
 

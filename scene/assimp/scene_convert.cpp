@@ -123,12 +123,16 @@ Result<void> SceneConverter::convertMeshes() {
     for (unsigned m = 0; m < scene_.mNumMeshes; ++m) {
         if (job_.stopRequested())
             return cancelled();
+        const aiMesh& mesh = *scene_.mMeshes[m];
+        std::uint32_t texcoord_sets = 0;
+        for (unsigned set = 0; set < AI_MAX_NUMBER_OF_TEXTURECOORDS; ++set)
+            texcoord_sets += mesh.HasTextureCoords(set) ? 1 : 0;
         Result<std::vector<Primitive>> primitives =
-            convertMesh(*scene_.mMeshes[m], options, [&](std::uint32_t material) {
-                return materials_.material(material);
+            convertMesh(mesh, options, [&](std::uint32_t material) {
+                return materials_.material(material, texcoord_sets);
             });
         if (!primitives)
-            return badInput(file_name_ + ": mesh '" + scene_.mMeshes[m]->mName.C_Str() +
+            return badInput(file_name_ + ": mesh '" + mesh.mName.C_Str() +
                             "': " + primitives.error().message);
         mesh_primitives_.push_back(std::move(*primitives));
         job_.report(0.7 + 0.25 * (m + 1.0) / scene_.mNumMeshes);
