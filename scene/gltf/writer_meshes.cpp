@@ -46,8 +46,8 @@ private:
     std::uint32_t next_ = 0;
 };
 
-// The accessor that a member of `owner` names; kNone if there is none.
-std::uint32_t accessorAt(const json& owner, const std::string& key) {
+// The number of what a member of `owner` refers to; kNone if there is none.
+std::uint32_t numberAt(const json& owner, const std::string& key) {
     const auto found = owner.is_object() ? owner.find(key) : owner.end();
     return owner.is_object() && found != owner.end() && found->is_number_unsigned()
                ? found->get<std::uint32_t>()
@@ -164,7 +164,7 @@ private:
                    static_cast<std::uint32_t>(geometry.indices.size())};
         to.indexed = primitive.mode == PrimitiveMode::Triangles || to.full.indices > 0;
         const json& attributes = memberOrNull(entry, "attributes");
-        addPositions(to, primitive, accessorAt(attributes, "POSITION"));
+        addPositions(to, primitive, numberAt(attributes, "POSITION"));
         for (std::uint32_t a = 0; a < geometry.attributes.size(); ++a)
             addAttribute(to, geometry.attributes[a], {attributes, a, kNone});
         const json& targets = memberOrNull(entry, "targets");
@@ -175,7 +175,7 @@ private:
                              geometry.morph_targets[t].attributes[a],
                              {t < targets.size() ? targets[t] : no_target, a, t});
         const bool wide = to.full.vertices > 65535;
-        to.index_content = contents_.numberOf(accessorAt(entry, "indices"),
+        to.index_content = contents_.numberOf(numberAt(entry, "indices"),
                                               wide ? "index32" : "index16",
                                               std::as_bytes(std::span(geometry.indices)));
         to.first_stream = plan_.stream_count;
@@ -214,7 +214,7 @@ private:
         stream.component_count = attribute.components;
         const bool bounded = attribute.semantic == "POSITION";
         stream.bounds_width = bounded ? numberWidth(attribute.type) : 0;
-        stream.content = contents_.numberOf(accessorAt(origin.accessors, attribute.semantic),
+        stream.content = contents_.numberOf(numberAt(origin.accessors, attribute.semantic),
                                             (bounded ? "p" : "a") + stream.format,
                                             attribute.bytes);
         to.streams.push_back(std::move(stream));
@@ -307,6 +307,32 @@ std::filesystem::path fileOf(ExportPlan& plan, std::filesystem::path path, const
     }
 }
 
+// Names the extension that allows an image's type, for textures that use the image without it: an
+// embedded image has to tell its type, which core glTF then checks.
+void nameImageExtensions(json& document) {
+    const auto textures = document.find("textures");
+    if (textures == document.end())
+        return;
+    for (json& texture : *textures) {
+        const std::uint32_t image = numberAt(texture, "source");
+        if (image >= document["images"].size())
+            continue;
+        const std::string mime = document["images"][image].value("mimeType", std::string());
+        const char* extension = mime == "image/ktx2"   ? "KHR_texture_basisu"
+                                : mime == "image/webp" ? "EXT_texture_webp"
+                                                       : nullptr;
+        if (extension == nullptr)
+            continue;
+        texture.erase("source");
+        texture["extensions"][extension]["source"] = image;
+        for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+            json& names = document[list];
+            if (std::ranges::find(names, json(extension)) == names.end())
+                names.push_back(extension);
+        }
+    }
+}
+
 } // namespace
 
 void planMeshes(ExportPlan& plan, json& document) {
@@ -333,6 +359,8 @@ void planImages(ExportPlan& plan, json& document) {
         const std::filesystem::path path = fileOf(plan, imagePath(plan.scene, i, mime), image);
         entry["uri"] = percentEncoded(path.generic_string());
     }
+    if (plan.options.container == Container::Glb)
+        nameImageExtensions(document);
 }
 
 } // namespace lodestone

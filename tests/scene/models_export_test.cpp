@@ -80,6 +80,12 @@ json untouched(const Scene& scene, const char* list) {
             entry.erase(key);
         for (const char* key : {"joints", "skeleton"})
             entry.erase(key);
+        // An embedded image of a type beyond core glTF is named through its extension.
+        for (const char* extension : {"KHR_texture_basisu", "EXT_texture_webp"})
+            if (entry.contains("extensions") && entry["extensions"].contains(extension)) {
+                entry["source"] = entry["extensions"][extension]["source"];
+                entry.erase("extensions");
+            }
         for (const char* key : {"samplers", "channels"})
             if (const auto parts = entry.find(key); parts != entry.end() && parts->is_array())
                 for (json& part : *parts) {
@@ -111,7 +117,7 @@ protected:
 
     // The scene as it came back; null where the export failed.
     ScenePtr sent(const ScenePtr& scene, const Way& way) {
-        const fs::path folder = folder_ / (way.name + std::string(way.extension));
+        const fs::path folder = folder_ / wordFor(way.name + std::string(way.extension));
         fs::create_directories(folder);
         const fs::path path = folder / (wordFor(GetParam()) + way.extension);
         const bool single = std::string_view(way.extension) == ".glb";
