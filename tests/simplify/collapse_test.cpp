@@ -290,6 +290,35 @@ TEST(Collapse, PointsAndLinesStayAsTheyAre) {
     EXPECT_EQ(last[1]->triangleCount(), 4u);
 }
 
+// --- vertices absurdly far out
+
+TEST(Collapse, AFarVertexDoesNotDefeatTheRest) {
+    for (const float far : {1e6f, 1e15f, 1e30f}) {
+        auto spiked = std::make_shared<Geometry>(*meshes::sphere(12, 16));
+        spiked->positions[100] = {far, -far, 0.5f * far};
+        const Submesh submesh = submeshOf({spiked});
+        const CollapseSequence sequence = sequenceOf(submesh, {}, {}, 3);
+        EXPECT_LE(sequence.facesAt(sequence.step_count), 40u) << far;
+        const GeometryPtr half = readAt(sequence, submesh, sequence.step_count / 2)[0];
+        for (const glm::vec3& p : half->positions) // on the surface, or the vertex itself
+            EXPECT_TRUE(p == spiked->positions[100] || std::abs(glm::length(p) - 1.0f) < 0.2f)
+                << far << ": " << p.x << " " << p.y << " " << p.z;
+    }
+}
+
+TEST(Collapse, AFarComponentDoesNotSetTheOrderOfTheRest) {
+    const GeometryPtr near = joined(*meshes::sphere(12, 16, 0.0), *hills(12));
+    const GeometryPtr far = made({{1e30f, 0, 0}, {2e30f, 0, 0}, {0, 1e30f, 0}}, {0, 1, 2});
+    const Submesh alone = submeshOf({near});
+    const Submesh both = submeshOf({joined(*near, *far)});
+    const CollapseSequence a = sequenceOf(alone);
+    const CollapseSequence b = sequenceOf(both);
+    std::uint32_t differing = 0;
+    for (std::size_t f = 0; f < a.face_death.size(); ++f)
+        differing += a.face_death[f] != b.face_death[f] ? 1 : 0;
+    EXPECT_LT(differing, a.face_death.size() / 50);
+}
+
 TEST(Collapse, ManyInstancesKeepExtentAndArea) {
     const Submesh submesh = submeshOf({meshes::sphere(12, 16)});
     const Shape whole = meshes::shapeOf(std::array{submesh.primitives[0].geometry});

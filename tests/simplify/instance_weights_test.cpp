@@ -231,7 +231,8 @@ TEST(InstanceWeights, EqualTheLoopForNearlyFlatTransforms) {
             maker.rotation() * glm::scale(glm::dmat4(1.0), {1.0, 0.8, 1e-4}) * maker.rotation();
         const Sample sample = maker.sample({flat});
         const InstanceWeights weights(sample.linearParts());
-        EXPECT_LT(relativeDifference(literalFaces(sample), closedFaces(sample, weights)), 2e-8); // the loop itself loses digits
+        EXPECT_LT(relativeDifference(literalFaces(sample), closedFaces(sample, weights)),
+                  2e-8); // the loop itself loses digits
     }
 }
 

@@ -1,5 +1,7 @@
 #include "tests/simplify/meshes.h"
 
+#include "scene/scene_builder.h"
+
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -141,13 +143,13 @@ Submesh submeshOf(std::vector<GeometryPtr> primitives) {
 }
 
 ScenePtr sceneOf(std::vector<Submesh> submeshes, std::vector<std::vector<glm::dmat4>> transforms) {
-    auto scene = std::make_shared<Scene>();
-    scene->name = "made";
-    scene->submeshes = std::move(submeshes);
-    for (std::uint32_t s = 0; s < transforms.size(); ++s)
+    SceneBuilder builder("made");
+    for (std::size_t s = 0; s < submeshes.size(); ++s) {
+        const std::uint32_t submesh = builder.addSubmesh(std::move(submeshes[s]));
         for (const glm::dmat4& transform : transforms[s])
-            scene->instances.push_back({transform, s, kNone, kNone});
-    return scene;
+            builder.addNode("instance", kNone, transform, submesh);
+    }
+    return builder.finish();
 }
 
 std::vector<glm::dmat4> gridOfTransforms(int per_side, double spacing) {

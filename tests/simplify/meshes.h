@@ -22,7 +22,7 @@ GeometryPtr
 withAttribute(const Geometry& geometry, std::string semantic, std::span<const float> values);
 
 Submesh submeshOf(std::vector<GeometryPtr> primitives);
-// No source document: nothing that exports. One submesh a geometry, its instances by transform.
+// transforms: [submeshes][their instances]
 ScenePtr sceneOf(std::vector<Submesh> submeshes, std::vector<std::vector<glm::dmat4>> transforms);
 std::vector<glm::dmat4> gridOfTransforms(int per_side, double spacing);
 
