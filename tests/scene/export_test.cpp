@@ -5,9 +5,11 @@
 
 #include <array>
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 namespace lodestone {
 namespace {
@@ -125,6 +127,74 @@ TEST_F(ExportTest, AFailureNamesTheFileAndLeavesNothingBehind) {
     fs::create_directory(folder_ / "taken.glb");
     EXPECT_FALSE(exportScene(*scene, fullLod(*scene), folder_ / "taken.glb", {}));
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1) << "no temporary file is left";
+}
+
+// Writing past 4 KiB of any file fails, as on a full disk, for as long as this lives.
+class FullDisk {
+public:
+    FullDisk() {
+        handler_ = std::signal(SIGXFSZ, SIG_IGN);
+        getrlimit(RLIMIT_FSIZE, &before_);
+        rlimit limit = before_;
+        limit.rlim_cur = 4096;
+        setrlimit(RLIMIT_FSIZE, &limit);
+    }
+
+    FullDisk(const FullDisk&) = delete;
+    FullDisk& operator=(const FullDisk&) = delete;
+
+    ~FullDisk() {
+        setrlimit(RLIMIT_FSIZE, &before_);
+        (void)std::signal(SIGXFSZ, handler_);
+    }
+
+private:
+    rlimit before_{};
+    void (*handler_)(int) = SIG_DFL;
+};
+
+TEST_F(ExportTest, AFullDiskLeavesTheOldFilesIntactAndNothingElse) {
+    const ScenePtr small = fixtures::cubeScene();
+    const ScenePtr large = fixtures::gridScene(40);
+    for (const char* name : {"old.glb", "old.gltf"}) {
+        const fs::path path = folder_ / name;
+        ASSERT_TRUE(exportScene(*small, fullLod(*small), path, {}));
+        const std::uint64_t bytes_before = folderBytes();
+        const auto files_before = std::distance(fs::directory_iterator(folder_), {});
+        const auto report = [&] {
+            const FullDisk full;
+            return exportScene(*large, fullLod(*large), path, {});
+        }();
+        ASSERT_FALSE(report) << name;
+        EXPECT_EQ(report.error().kind, ErrorKind::Failed);
+        EXPECT_NE(report.error().message.find("old"), std::string::npos);
+        EXPECT_NE(report.error().message.find("free some space"), std::string::npos);
+        EXPECT_EQ(folderBytes(), bytes_before);
+        EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), files_before);
+        const auto again = importScene(path, {});
+        ASSERT_TRUE(again) << again.error().message;
+        EXPECT_EQ(countScene(**again).triangles, countScene(*small).triangles);
+    }
+}
+
+TEST_F(ExportTest, AFolderThatIsAFileIsRefusedByName) {
+    const ScenePtr scene = fixtures::cubeScene();
+    std::ofstream(folder_ / "file") << "not a folder";
+    for (const char* name : {"cube.glb", "cube.gltf"}) {
+        const auto report = exportScene(*scene, fullLod(*scene), folder_ / "file" / name, {});
+        ASSERT_FALSE(report) << name;
+        EXPECT_EQ(report.error().kind, ErrorKind::Failed);
+        EXPECT_EQ(report.error().message.find('\n'), std::string::npos);
+    }
+    EXPECT_EQ(folderBytes(), std::string("not a folder").size());
+}
+
+TEST_F(ExportTest, ADeviceIsNotReplacedByAFile) {
+    const ScenePtr scene = fixtures::cubeScene();
+    const auto report = exportScene(*scene, fullLod(*scene), "/dev/full", {});
+    ASSERT_FALSE(report);
+    EXPECT_NE(report.error().message.find("not a regular file"), std::string::npos);
+    EXPECT_TRUE(fs::is_character_file("/dev/full"));
 }
 
 TEST_F(ExportTest, AnOldFileSurvivesALodThatCannotBeWritten) {
