@@ -1,5 +1,7 @@
 #include "scene/gltf/writer_geometry.h"
 
+#include "scene/gltf/writer_weights.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -189,16 +191,22 @@ accessorBytes(const ExportPlan& plan, const AccessorLayout& accessor, const Lod&
     const Geometry& geometry = geometryOf(accessor, lod);
     if (accessor.stream == nullptr)
         return indexBytes(accessor, geometry);
+    const Primitive& primitive =
+        plan.scene.submeshes[accessor.submesh].primitives[accessor.primitive];
     if (accessor.stream->attribute == kNone) {
-        const Primitive& primitive =
-            plan.scene.submeshes[accessor.submesh].primitives[accessor.primitive];
         if (primitive.position_type == ComponentType::Float32)
             return padElements(std::as_bytes(std::span(geometry.positions)), sizeof(glm::vec3));
         const Attribute attribute = quantized(primitive, geometry);
         return padElements(attribute.bytes, attribute.stride());
     }
     const Attribute& attribute = attributeOf(*accessor.stream, geometry);
-    std::vector<std::byte> bytes = padElements(attribute.bytes, attribute.stride());
+    const bool simplified = primitive.geometry.get() != &geometry;
+    const bool weighs =
+        accessor.stream->target == kNone && attribute.semantic.starts_with("WEIGHTS_");
+    std::vector<std::byte> bytes =
+        simplified && weighs
+            ? padElements(normalizedWeights(geometry, attribute).bytes, attribute.stride())
+            : padElements(attribute.bytes, attribute.stride());
     if (attribute.type == ComponentType::Float32)
         replaceNotFinite(bytes);
     return bytes;

@@ -129,6 +129,49 @@ TEST_F(ExportTest, AFailureNamesTheFileAndLeavesNothingBehind) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1) << "no temporary file is left";
 }
 
+// A triangle with skinning weights of which only the last vertex adds up.
+ScenePtr weightedTriangle(ComponentType type) {
+    auto scene = std::make_shared<Scene>(*fixtures::triangleScene());
+    Geometry geometry = *scene->submeshes[0].primitives[0].geometry;
+    Attribute weights{"WEIGHTS_0", type, 4, type != ComponentType::Float32, {}};
+    weights.bytes.resize(3 * weights.stride());
+    const std::array<std::array<float, 4>, 3> values{
+        {{0.2f, 0.2f, 0.2f, 0.0f}, {0.1f, 0.0f, 0.0f, 0.0f}, {0.4f, 0.6f, 0.0f, 0.0f}}};
+    for (std::size_t v = 0; v < 3; ++v)
+        for (std::size_t c = 0; c < 4; ++c)
+            setAttributeValue(weights, v, c, values[v][c]);
+    geometry.attributes.push_back(std::move(weights));
+    scene->submeshes[0].primitives[0].geometry = std::make_shared<const Geometry>(geometry);
+    return scene;
+}
+
+TEST_F(ExportTest, WeightsOfSimplifiedMeshesAddUpAndOthersAreUntouched) {
+    const fs::path path = folder_ / "weights.glb";
+    const auto weightsOf = [&](const Scene& scene, const Lod& lod) {
+        EXPECT_TRUE(exportScene(scene, lod, path, {}));
+        const auto again = importScene(path, {});
+        EXPECT_TRUE(again);
+        return *findAttribute((*again)->submeshes[0].primitives[0].geometry->attributes,
+                              "WEIGHTS_0");
+    };
+    for (const ComponentType type :
+         {ComponentType::Float32, ComponentType::UInt8, ComponentType::UInt16}) {
+        const ScenePtr scene = weightedTriangle(type);
+        const GeometryPtr own = scene->submeshes[0].primitives[0].geometry;
+        Lod lod = fullLod(*scene);
+        EXPECT_EQ(weightsOf(*scene, lod).bytes, findAttribute(own->attributes, "WEIGHTS_0")->bytes);
+        lod.submeshes[0].primitives[0] = std::make_shared<const Geometry>(*own);
+        const Attribute weights = weightsOf(*scene, lod);
+        for (std::size_t v = 0; v < 3; ++v) {
+            float sum = 0.0f;
+            for (std::size_t c = 0; c < 4; ++c)
+                sum += attributeValue(weights, v, c);
+            EXPECT_NEAR(sum, 1.0f, 1e-6f) << "vertex " << v;
+        }
+        EXPECT_NEAR(attributeValue(weights, 2, 0), 0.4f, 0.5f / 255.0f);
+    }
+}
+
 // Writing past 4 KiB of any file fails, as on a full disk, for as long as this lives.
 class FullDisk {
 public:
