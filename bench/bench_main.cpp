@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <exception>
 #include <fmt/core.h>
 #include <fstream>
 #include <iostream>
@@ -20,8 +21,8 @@ struct Section {
 
 // A section over one scene; without the scene it is left out and said so.
 Section sceneSection(const std::string& title,
-                     std::function<Result<ScenePtr>(Inputs&)> find,
-                     std::function<Result<void>(Bench&, const ScenePtr&)> add) {
+                     const std::function<Result<ScenePtr>(Inputs&)>& find,
+                     const std::function<Result<void>(Bench&, const ScenePtr&)>& add) {
     return {title, [=](Bench& bench) -> Result<void> {
                 const Result<ScenePtr> scene = find(bench.inputs);
                 if (!scene)
@@ -120,7 +121,7 @@ int run(const Options& options) {
     if (!options.out.empty()) {
         file.open(options.out);
         if (!file) {
-            std::cerr << "error: " << options.out << ": cannot be written\n";
+            std::cerr << "lodestone_bench: " << options.out << ": cannot be written\n";
             return exitCode(ErrorKind::Failed);
         }
     }
@@ -145,7 +146,8 @@ int run(const Options& options) {
         bench.table.heading(section.title);
         const Result<void> added = section.add(bench);
         if (!added) {
-            std::cerr << "error: " << section.title << ": " << added.error().message << '\n';
+            std::cerr << "lodestone_bench: " << section.title << ": " << added.error().message
+                      << '\n';
             code = exitCode(added.error().kind);
         }
     }
@@ -153,21 +155,30 @@ int run(const Options& options) {
     return code;
 }
 
+int parseAndRun(int argc, char** argv) {
+    Options options;
+    CLI::App app("Re-runs every promised figure beside its peers; Markdown on stdout.");
+    app.add_option("--out", options.out, "write to this file instead of stdout");
+    app.add_option("--only", options.only, "only sections whose title contains this");
+    app.add_option("--inputs",
+                   options.given,
+                   "folder whose maple, village, sphere and cards .glb are measured too");
+    app.add_option("--models", options.models, "folder of real models")->capture_default_str();
+    app.add_flag("--quick", options.quick, "3 rounds instead of 5");
+    app.add_flag("--memory-child", options.memory_child)->group(""); // how it starts itself
+    CLI11_PARSE(app, argc, argv);
+    return options.memory_child ? runMemoryChild() : run(options);
+}
+
 } // namespace
 
 } // namespace lodestone::bench
 
 int main(int argc, char** argv) {
-    lodestone::bench::Options options;
-    CLI::App app("Re-runs every promised figure beside its peers; Markdown on stdout.");
-    app.add_option("--out", options.out, "write to this file instead of stdout");
-    app.add_option("--only", options.only, "only sections whose title contains this");
-    app.add_option(
-        "--inputs", options.given, "measure maple, village, cards, sphere .glb of this folder too");
-    app.add_option("--models", options.models, "folder of real models")->capture_default_str();
-    app.add_flag("--quick", options.quick, "3 rounds instead of 5");
-    app.add_flag("--memory-child", options.memory_child)->group("");
-    CLI11_PARSE(app, argc, argv);
-    return options.memory_child ? lodestone::bench::runMemoryChild()
-                                : lodestone::bench::run(options);
+    try {
+        return lodestone::bench::parseAndRun(argc, argv);
+    } catch (const std::exception& exception) { // out of memory, or a bug
+        std::cerr << "lodestone_bench: " << exception.what() << '\n';
+        return lodestone::exitCode(lodestone::ErrorKind::Failed);
+    }
 }

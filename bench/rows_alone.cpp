@@ -19,6 +19,8 @@ AloneTargets sphereTargets() {
 
 namespace {
 
+constexpr std::uint64_t kShortBelow = 200'000; // triangles: timed more often
+
 // Distances of ours and the peer's at the peer's number of triangles.
 Result<void> addDistances(Bench& bench, const LodSource& source, const AloneTargets& targets) {
     const Scene& scene = *source.scene();
@@ -53,9 +55,10 @@ Result<void> addDistances(Bench& bench, const LodSource& source, const AloneTarg
 
 Result<void>
 addAloneRows(Bench& bench, const ScenePtr& scene, const AloneTargets& targets, SketchInput input) {
+    const int runs = countScene(*scene).triangles < kShortBelow ? 5 : 1;
     const std::vector<Contender> contenders{
-        {[&]() -> Result<std::shared_ptr<const void>> { return prepareQuadric(scene); }, 1},
-        {meshoptimizerWork(scene), 3}};
+        {[&]() -> Result<std::shared_ptr<const void>> { return prepareQuadric(scene); }, runs},
+        {meshoptimizerWork(scene), runs}};
     const auto seconds = timeInTurns(contenders, bench.rounds);
     if (!seconds)
         return tl::unexpected(seconds.error());
@@ -69,7 +72,7 @@ addAloneRows(Bench& bench, const ScenePtr& scene, const AloneTargets& targets, S
          targets.time_ratio,
          secondsText(spreadOf((*seconds)[0])),
          meshoptimizerName() + " to 20 %: " + secondsText(spreadOf((*seconds)[1]))});
-    const Result<void> distances = addDistances(bench, **source, targets);
+    Result<void> distances = addDistances(bench, **source, targets);
     if (!distances)
         return distances;
     addSketchTime(bench.table, targets.sketch, triangles, *seconds);

@@ -98,12 +98,18 @@ Result<void> addReschedule(Bench& bench, const std::string& name) {
     if (!source)
         return tl::unexpected(source.error());
     const ByteModel bytes(*scene, ExportOptions{});
-    for (const auto& [ordering, text] : {std::pair{Ordering::Triangle, "triangle"},
-                                         {Ordering::Byte, "byte"},
-                                         {Ordering::Cost, "cost"}}) {
+
+    struct Named {
+        Ordering ordering;
+        const char* name;
+    };
+
+    for (const Named& by : {Named{Ordering::Triangle, "triangle"},
+                            Named{Ordering::Byte, "byte"},
+                            Named{Ordering::Cost, "cost"}}) {
         const std::vector<Contender> contenders{
             {[&]() -> Result<std::shared_ptr<const void>> {
-                 return (*source)->rescheduled({ordering, {}, {}}, bytes);
+                 return (*source)->rescheduled({by.ordering, {}, {}}, bytes);
              },
              5}};
         const auto seconds = timeInTurns(contenders, bench.rounds);
@@ -112,7 +118,7 @@ Result<void> addReschedule(Bench& bench, const std::string& name) {
         const Spread spread = spreadOf(seconds->front());
         bench.table.atMost(fmt::format("{}, IAS: schedule by {}, {} positions, CPU",
                                        name,
-                                       text,
+                                       by.name,
                                        countText((*source)->positionCount())),
                            {spread.median, 0.010, secondsText(spread), secondsText(0.010), ""});
     }

@@ -36,10 +36,11 @@ double valueNoise(const glm::dvec3& point) {
 class CubeGrid {
 public:
     CubeGrid(std::uint32_t side, double noise_offset)
-        : side_(side), noise_offset_(noise_offset), ids_(6 * (side + 1) * (side + 1), kNone) {}
+        : side_(side), noise_offset_(noise_offset),
+          ids_(std::size_t{6} * (side + 1) * (side + 1), kNone) {}
 
     std::uint32_t vertex(std::uint32_t face, std::uint32_t u, std::uint32_t v) {
-        std::uint32_t& id = ids_[(face * (side_ + 1) + u) * (side_ + 1) + v];
+        std::uint32_t& id = ids_[(std::size_t{face} * (side_ + 1) + u) * (side_ + 1) + v];
         if (id != kNone)
             return id;
         std::array<std::uint32_t, 3> cell{};
