@@ -210,15 +210,54 @@ private:
     std::uint32_t material_ = kNone;
 };
 
-void drawItem(const DrawItem& item, std::uint32_t instance_count) {
-    const auto instances = static_cast<GLsizei>(instance_count);
+// A part of an item: some of its instances, or some of its one instance's indices.
+struct DrawRange {
+    std::uint32_t index_begin = 0;
+    std::uint32_t index_count = 0;
+    std::uint32_t instance_count = 0;
+};
+
+std::uint64_t triangleCount(const DrawItem& item, const DrawRange& range) {
+    const bool triangles = item.mode == PrimitiveMode::Triangles;
+    return triangles ? std::uint64_t(range.index_count / 3) * range.instance_count : 0;
+}
+
+// What follows `begin` (see DrawCursor), about most_triangles of it and not nothing.
+DrawRange nextRange(const DrawItem& item, std::uint32_t begin, std::uint64_t most_triangles) {
+    DrawRange range{0, item.geometry->index_count, item.kept_instances};
+    if (item.mode != PrimitiveMode::Triangles || range.index_count < 3)
+        return range;
+    if (item.kept_instances > 1) {
+        const std::uint64_t most = most_triangles / (range.index_count / 3) + 1;
+        const std::uint64_t left = item.kept_instances - begin;
+        range.instance_count = static_cast<std::uint32_t>(std::min(left, most));
+    } else {
+        const std::uint64_t left = range.index_count - begin;
+        const std::uint64_t most = std::min(most_triangles, left) + 1;
+        range.index_begin = begin;
+        range.index_count = static_cast<std::uint32_t>(std::min(left, most * 3));
+    }
+    return range;
+}
+
+// Behind the range; back at 0 once the item is finished.
+std::uint32_t placeBehind(const DrawItem& item, std::uint32_t begin, const DrawRange& range) {
+    const bool by_instance = item.kept_instances > 1;
+    const std::uint32_t end = begin + (by_instance ? range.instance_count : range.index_count);
+    return end >= (by_instance ? item.kept_instances : item.geometry->index_count) ? 0 : end;
+}
+
+void drawItem(const DrawItem& item, const DrawRange& range) {
+    const auto instances = static_cast<GLsizei>(range.instance_count);
     const GLenum mode = glMode(item.mode);
+    const std::uintptr_t index_size = item.geometry->index_type == GL_UNSIGNED_SHORT ? 2 : 4;
     if (item.geometry->index_count > 0)
-        glDrawElementsInstanced(mode,
-                                static_cast<GLsizei>(item.geometry->index_count),
-                                item.geometry->index_type,
-                                nullptr,
-                                instances);
+        glDrawElementsInstanced(
+            mode,
+            static_cast<GLsizei>(range.index_count),
+            item.geometry->index_type,
+            reinterpret_cast<const void*>(range.index_begin * index_size), // NOLINT: GL wants it so
+            instances);
     else
         glDrawArraysInstanced(
             mode, 0, static_cast<GLsizei>(item.geometry->vertex_count), instances);
@@ -264,39 +303,64 @@ public:
         : input_(input), scene_(input.scene->state()),
           binder_(scene_, input.options, antialiasing.samples) {}
 
-    Result<void> drawAll(const std::vector<DrawItem>& items) {
+    Result<void> drawFrom(DrawCursor& cursor, std::uint64_t most_triangles) {
+        const std::vector<DrawItem>& items = input_.lod->state()->items;
         const std::vector<BlendedInstance> sorted = backToFront(input_);
-        for (const DrawItem& item : items) {
-            if (!scene_.hidden.empty() && scene_.hidden[item.submesh])
+        while (cursor.item < items.size()) {
+            const DrawItem& item = items[cursor.item];
+            if (isSkipped(item, !sorted.empty())) {
+                ++cursor.item;
                 continue;
-            if (!sorted.empty() && isBlended(item, scene_, input_.options.shading))
-                continue;
-            if (Result<void> drawn = draw(item, item.kept_instances); !drawn)
+            }
+            if (totals_.triangles >= most_triangles)
+                return {};
+            const DrawRange range =
+                nextRange(item, cursor.begin, most_triangles - totals_.triangles);
+            if (Result<void> drawn = drawPart(item, cursor.begin, range); !drawn)
                 return drawn;
+            cursor.begin = placeBehind(item, cursor.begin, range);
+            if (cursor.begin == 0)
+                ++cursor.item;
         }
+        cursor.finished = true;
         return drawSorted(sorted);
     }
 
     const DrawTotals& totals() const { return totals_; }
 
 private:
-    Result<void> draw(const DrawItem& item, std::uint32_t instance_count) {
+    bool isSkipped(const DrawItem& item, bool blended_are_sorted) const {
+        return (!scene_.hidden.empty() && scene_.hidden[item.submesh]) ||
+               (blended_are_sorted && isBlended(item, scene_, input_.options.shading));
+    }
+
+    Result<void> draw(const DrawItem& item, const DrawRange& range) {
         if (Result<void> bound = binder_.bind(item); !bound)
             return bound;
-        drawItem(item, instance_count);
+        drawItem(item, range);
         ++totals_.draw_calls;
-        if (item.mode == PrimitiveMode::Triangles)
-            totals_.triangles += std::uint64_t(item.geometry->index_count / 3) * instance_count;
+        totals_.triangles += triangleCount(item, range);
         return {};
+    }
+
+    Result<void> drawPart(const DrawItem& item, std::uint32_t begin, const DrawRange& range) {
+        if (begin == 0 || item.kept_instances <= 1)
+            return draw(item, range);
+        return drawInstances(item, begin, range);
+    }
+
+    Result<void> drawInstances(const DrawItem& item, std::uint32_t first, const DrawRange& range) {
+        glBindVertexArray(item.vertex_array.name());
+        pointAtInstances(*item.instances, first);
+        Result<void> drawn = draw(item, range);
+        pointAtInstances(*item.instances, 0);
+        return drawn;
     }
 
     Result<void> drawSorted(const std::vector<BlendedInstance>& sorted) {
         for (const BlendedInstance& blended : sorted) {
-            glBindVertexArray(blended.item->vertex_array.name());
-            pointAtInstances(*blended.item->instances, blended.place);
-            Result<void> drawn = draw(*blended.item, 1);
-            pointAtInstances(*blended.item->instances, 0);
-            if (!drawn)
+            const DrawRange one{0, blended.item->geometry->index_count, 1};
+            if (Result<void> drawn = drawInstances(*blended.item, blended.place, one); !drawn)
                 return drawn;
         }
         return {};
@@ -334,7 +398,10 @@ void drawBackground(const RendererState& renderer, const ViewOptions& options) {
     glBindVertexArray(0);
 }
 
-Result<DrawTotals> drawLod(const View::Input& input, const Antialiasing& antialiasing) {
+Result<DrawTotals> drawLod(const View::Input& input,
+                           const Antialiasing& antialiasing,
+                           DrawCursor& cursor,
+                           std::uint64_t most_triangles) {
     const GpuSceneState& scene = input.scene->state();
     setFixedState();
     const FrameBlock block = frameBlock(input, scene.frame, antialiasing);
@@ -342,7 +409,7 @@ Result<DrawTotals> drawLod(const View::Input& input, const Antialiasing& antiali
     glBufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STREAM_DRAW);
     glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, scene.renderer->frameBuffer());
     ItemDrawer drawer(input, antialiasing);
-    const Result<void> drawn = drawer.drawAll(input.lod->state()->items);
+    const Result<void> drawn = drawer.drawFrom(cursor, most_triangles);
     resetState();
     if (!drawn)
         return tl::unexpected(drawn.error());

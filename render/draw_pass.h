@@ -20,7 +20,19 @@ struct DrawTotals {
 
 void drawBackground(const RendererState& renderer, const ViewOptions& options);
 
+// Where a draw that is spread over several calls goes on.
+struct DrawCursor {
+    std::size_t item = 0;    // in LodState::items
+    std::uint32_t begin = 0; // of that item's instances, or of its indices if it has one instance
+    bool finished = false;
+};
+
+// Draws from the cursor on and moves it. Stops once about most_triangles are drawn, instances
+// counted; transparent instances come last and at once.
 // Errors: Failed for a shader that does not compile.
-Result<DrawTotals> drawLod(const View::Input& input, const Antialiasing& antialiasing);
+Result<DrawTotals> drawLod(const View::Input& input,
+                           const Antialiasing& antialiasing,
+                           DrawCursor& cursor,
+                           std::uint64_t most_triangles);
 
 } // namespace lodestone

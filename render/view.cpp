@@ -47,6 +47,10 @@ PictureKey keyOf(const View::Input& input) {
 // 2 x 2 as large costs 0.1 s at 640 x 480: from this count on the latter is cheaper.
 constexpr std::uint64_t kSupersampledTriangles = 100'000;
 
+// One slice of a picture that is drawn over several calls: some 15 ms on llvmpipe.
+constexpr std::uint64_t kSliceTriangles = 150'000;
+constexpr std::uint64_t kEveryTriangle = std::numeric_limits<std::uint64_t>::max();
+
 Antialiasing chooseAntialiasing(const View::Input& input, const GlInfo& info) {
     const int samples = std::clamp(input.options.samples, 1, std::max(info.max_samples, 1));
     const int largest = std::max(input.size.width_px, input.size.height_px);
@@ -62,11 +66,14 @@ class ViewState {
 public:
     explicit ViewState(std::shared_ptr<RendererState> renderer) : renderer_(std::move(renderer)) {}
 
-    Result<DrawReport> draw(const View::Input& input);
+    Result<DrawReport> draw(const View::Input& input, double budget_ms);
     Result<MeasureReport> measure(const View::Input& input, const MeasureOptions& options);
     Result<Pixels> readPixels() const;
 
-    void invalidate() { key_.reset(); }
+    void invalidate() {
+        key_.reset();
+        sliced_.reset();
+    }
 
     GLuint texture() const { return color_.name(); }
 
@@ -76,6 +83,10 @@ private:
     Result<void> resize(ViewSize size, Antialiasing antialiasing);
     Result<void> makeDrawnBuffer();
     Result<DrawTotals> render(const View::Input& input);
+    void beginPicture(const View::Input& input);
+    Result<DrawTotals> drawSlices(const View::Input& input, DrawCursor& cursor, double budget_ms);
+    void endPicture(const View::Input& input);
+    Result<DrawReport> drawBudgeted(const View::Input& input, PictureKey key, double budget_ms);
     void beginTimer();
     void endTimer();
     void collectTimers();
@@ -90,6 +101,15 @@ private:
     GlRenderbuffer drawn_depth_;
     std::optional<PictureKey> key_;
     DrawReport last_;
+
+    struct Sliced { // a picture that is drawn over several calls
+        PictureKey key;
+        DrawCursor cursor;
+        DrawTotals totals;
+        double cost_ms = 0.0;
+    };
+
+    std::optional<Sliced> sliced_;
     bool transparent_ = false;
 
     struct Timer {
@@ -164,16 +184,45 @@ Result<void> ViewState::makeDrawnBuffer() {
     return fail(ErrorKind::Failed, "the GPU refuses a view of " + size + " px; use a smaller one");
 }
 
-Result<DrawTotals> ViewState::render(const View::Input& input) {
-    const int width = size_.width_px * antialiasing_.scale;
-    const int height = size_.height_px * antialiasing_.scale;
+void ViewState::beginPicture(const View::Input& input) {
     glBindFramebuffer(GL_FRAMEBUFFER, drawn_.name());
-    glViewport(0, 0, width, height);
+    glViewport(0, 0, size_.width_px * antialiasing_.scale, size_.height_px * antialiasing_.scale);
     glDisable(GL_SCISSOR_TEST);
     drawBackground(*renderer_, input.options);
+}
+
+Result<DrawTotals> ViewState::render(const View::Input& input) {
+    beginPicture(input);
     Result<DrawTotals> totals;
+    DrawCursor cursor;
     if (hasPicture(input))
-        totals = drawLod(input, antialiasing_);
+        totals = drawLod(input, antialiasing_, cursor, kEveryTriangle);
+    endPicture(input);
+    return totals;
+}
+
+// At least one slice; stops once the budget is spent or everything is drawn.
+Result<DrawTotals>
+ViewState::drawSlices(const View::Input& input, DrawCursor& cursor, double budget_ms) {
+    const Clock::time_point begun = Clock::now();
+    glBindFramebuffer(GL_FRAMEBUFFER, drawn_.name());
+    glViewport(0, 0, size_.width_px * antialiasing_.scale, size_.height_px * antialiasing_.scale);
+    DrawTotals all;
+    do {
+        const Result<DrawTotals> slice = drawLod(input, antialiasing_, cursor, kSliceTriangles);
+        if (!slice)
+            return tl::unexpected(slice.error());
+        all.triangles += slice->triangles;
+        all.draw_calls += slice->draw_calls;
+        glFinish();
+    } while (!cursor.finished && elapsedMs(begun) < budget_ms);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    return all;
+}
+
+void ViewState::endPicture(const View::Input& input) {
+    const int width = size_.width_px * antialiasing_.scale;
+    const int height = size_.height_px * antialiasing_.scale;
     glBindFramebuffer(GL_READ_FRAMEBUFFER, drawn_.name());
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.name());
     // Halving with the linear filter averages exactly four pixels.
@@ -189,7 +238,6 @@ Result<DrawTotals> ViewState::render(const View::Input& input) {
                       antialiasing_.scale > 1 ? GL_LINEAR : GL_NEAREST);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     transparent_ = input.options.background == Background::Transparent;
-    return totals;
 }
 
 void ViewState::beginTimer() {
@@ -233,13 +281,54 @@ void ViewState::collectTimers() {
     }
 }
 
-Result<DrawReport> ViewState::draw(const View::Input& input) {
+Result<DrawReport>
+ViewState::drawBudgeted(const View::Input& input, PictureKey key, double budget_ms) {
+    const Clock::time_point begun = Clock::now();
+    if (!sliced_ || !(sliced_->key == key)) {
+        sliced_.reset();
+        const bool first = !color_;
+        if (Result<void> resized = resize(input.size, chooseAntialiasing(input, renderer_->info()));
+            !resized)
+            return tl::unexpected(resized.error());
+        beginPicture(input);
+        if (first)
+            endPicture(input);
+        sliced_ = Sliced{std::move(key), {}, {}, 0.0};
+    }
+    const Result<DrawTotals> totals = drawSlices(input, sliced_->cursor, budget_ms);
+    if (!totals) {
+        sliced_.reset();
+        return tl::unexpected(totals.error());
+    }
+    sliced_->totals.triangles += totals->triangles;
+    sliced_->totals.draw_calls += totals->draw_calls;
+    sliced_->cost_ms += elapsedMs(begun);
+    last_.complete = sliced_->cursor.finished;
+    if (!last_.complete)
+        return last_;
+    endPicture(input);
+    glFinish();
+    last_.drew = true;
+    last_.cost_ms = sliced_->cost_ms;
+    last_.cost_known = true;
+    last_.triangles = sliced_->totals.triangles;
+    last_.draw_calls = sliced_->totals.draw_calls;
+    key_ = std::move(sliced_->key);
+    sliced_.reset();
+    return last_;
+}
+
+Result<DrawReport> ViewState::draw(const View::Input& input, double budget_ms) {
     collectTimers();
-    const PictureKey key = keyOf(input);
+    PictureKey key = keyOf(input);
     last_.drew = false;
+    last_.complete = true;
     if (key_ && *key_ == key)
         return last_;
     key_.reset();
+    if (renderer_->info().is_software && budget_ms < View::kNoBudget && hasPicture(input))
+        return drawBudgeted(input, std::move(key), budget_ms);
+    sliced_.reset();
     if (Result<void> resized = resize(input.size, chooseAntialiasing(input, renderer_->info()));
         !resized)
         return tl::unexpected(resized.error());
@@ -257,7 +346,7 @@ Result<DrawReport> ViewState::draw(const View::Input& input) {
 
 Result<MeasureReport> ViewState::measure(const View::Input& input, const MeasureOptions& options) {
     invalidate();
-    const Result<DrawReport> first = draw(input);
+    const Result<DrawReport> first = draw(input, View::kNoBudget);
     if (!first)
         return tl::unexpected(first.error());
     const Clock::time_point begun = Clock::now();
@@ -324,8 +413,8 @@ Result<View> View::create(const Renderer& renderer) {
     return View(std::make_unique<ViewState>(renderer.shared()));
 }
 
-Result<DrawReport> View::draw(const Input& input) {
-    return state_->draw(input);
+Result<DrawReport> View::draw(const Input& input, double budget_ms) {
+    return state_->draw(input, budget_ms);
 }
 
 void View::invalidate() {

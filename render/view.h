@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <memory>
 
 namespace lodestone {
@@ -51,7 +52,8 @@ struct ViewSize {
 };
 
 struct DrawReport {
-    bool drew = false;       // false: nothing changed since the last call
+    bool drew = false;       // false: nothing changed since the last call, or not complete yet
+    bool complete = true;    // false: the budget was spent; call again with the same input
     bool cost_known = false; // timer queries answer a frame or two later
     double cost_ms = 0.0;    // of the last measured draw of this view
     std::uint64_t triangles = 0;
@@ -89,8 +91,11 @@ public:
     };
 
     // Draws if scene, LOD, camera, options or size changed. Leaves the window's framebuffer bound.
+    // budget_ms: where the CPU draws, a call stops soon after it, and the picture before stays
+    // until calls with an equal input have completed the new one; elsewhere it has no effect.
     // Errors: Usage for a size beyond the GPU's limit; Failed for a shader that does not compile.
-    Result<DrawReport> draw(const Input& input);
+    Result<DrawReport> draw(const Input& input, double budget_ms = kNoBudget);
+    static constexpr double kNoBudget = std::numeric_limits<double>::infinity();
     void invalidate(); // the next draw() draws
 
     // The picture, bottom row first as GL has it: show with uv (0,1)-(1,0). Valid until the next

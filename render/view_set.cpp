@@ -7,6 +7,23 @@ namespace lodestone {
 
 namespace {
 
+// How a wanted picture is drawn.
+ViewOptions optionsOf(const ViewSet::Wanted& wanted, const ViewOptions& options) {
+    ViewOptions result = options;
+    if (wanted.draft)
+        result.samples = 1;
+    return result;
+}
+
+// A stale picture. Cheap ones come first, then those that have waited longest.
+struct Waiting {
+    bool exceeds_budget = false;
+    std::uint64_t drawn_at = 0; // turn of the last draw
+    std::size_t place = 0;      // in the wanted ones
+
+    auto operator<=>(const Waiting&) const = default;
+};
+
 double millisecondsSince(std::chrono::steady_clock::time_point begin) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
         .count();
@@ -32,6 +49,10 @@ Result<GpuScene*> ViewSet::sceneOf(const ScenePtr& scene) {
     return &scenes_.emplace(scene.get(), std::move(*created)).first->second;
 }
 
+double ViewSet::costOf(const Item& item, const Wanted& wanted) {
+    return wanted.draft ? item.draft.cost_ms : item.full.cost_ms;
+}
+
 void ViewSet::forgetUnwanted(std::span<const Wanted> wanted) {
     std::erase_if(items_, [&](const auto& entry) {
         return std::none_of(wanted.begin(), wanted.end(), [&](const Wanted& lane) {
@@ -45,32 +66,52 @@ void ViewSet::forgetUnwanted(std::span<const Wanted> wanted) {
     });
 }
 
-Result<void> ViewSet::drawItem(Item& item,
+bool ViewSet::isStale(const Item& item,
+                      const Wanted& wanted,
+                      const OrbitCamera& camera,
+                      const ViewOptions& options) {
+    const bool draft = wanted.draft != nullptr;
+    return !item.complete || item.shows_draft != draft || item.scene != wanted.scene.get() ||
+           item.shown().lod != (draft ? wanted.draft : wanted.lod) || item.camera != camera ||
+           item.options != optionsOf(wanted, options) || item.size != wanted.size;
+}
+
+Result<bool> ViewSet::drawItem(Item& item,
                                const Wanted& wanted,
                                const OrbitCamera& camera,
-                               const ViewOptions& options) {
+                               const ViewOptions& options,
+                               double budget_ms) {
     Result<GpuScene*> scene = sceneOf(wanted.scene);
     if (!scene)
         return tl::unexpected(scene.error());
-    if (item.scene != wanted.scene.get())
-        item.handle = LodHandle();
-    if (!item.handle.valid() || item.lod != wanted.lod)
-        if (const auto updated = (*scene)->update(item.handle, *wanted.lod); !updated)
+    if (item.scene != wanted.scene.get()) {
+        item.full = Item::Uploaded();
+        item.draft = Item::Uploaded();
+    }
+    item.scene = wanted.scene.get();
+    Item::Uploaded& shown = wanted.draft ? item.draft : item.full;
+    const std::shared_ptr<const Lod>& lod = wanted.draft ? wanted.draft : wanted.lod;
+    if (!shown.handle.valid() || shown.lod != lod) {
+        if (const auto updated = (*scene)->update(shown.handle, *lod); !updated)
             return tl::unexpected(updated.error());
+        shown.lod = lod;
+    }
+    item.shows_draft = wanted.draft != nullptr;
+    item.camera = camera;
+    item.options = optionsOf(wanted, options);
     const Result<DrawReport> report =
-        item.view.draw({*scene, &item.handle, camera, options, wanted.size});
+        item.view.draw({*scene, &shown.handle, camera, item.options, wanted.size}, budget_ms);
     if (!report)
         return tl::unexpected(report.error());
-    if (report->cost_known)
-        item.cost_ms = report->cost_ms;
-    item.scene = wanted.scene.get();
-    item.lod = wanted.lod;
-    item.camera = camera;
-    item.options = options;
     item.size = wanted.size;
+    item.complete = report->complete;
+    if (!item.complete)
+        return false;
+    if (report->cost_known)
+        shown.cost_ms = report->cost_ms;
     item.drawn_at = ++turn_;
     item.drawn = true;
-    return {};
+    return true;
 }
 
 Result<std::vector<ViewSet::Picture>> ViewSet::draw(std::span<const Wanted> wanted,
@@ -79,7 +120,7 @@ Result<std::vector<ViewSet::Picture>> ViewSet::draw(std::span<const Wanted> want
                                                     double budget_ms) {
     forgetUnwanted(wanted);
     std::vector<Picture> pictures(wanted.size());
-    std::vector<std::pair<std::uint64_t, std::size_t>> queue; // turn of the last draw, place
+    std::vector<Waiting> queue;
     for (std::size_t at = 0; at < wanted.size(); ++at) {
         const Wanted& lane = wanted[at];
         pictures[at].key = lane.key;
@@ -90,29 +131,31 @@ Result<std::vector<ViewSet::Picture>> ViewSet::draw(std::span<const Wanted> want
         if (!item)
             return tl::unexpected(item.error());
         const Item& last = **item;
-        pictures[at].stale = !last.drawn || last.scene != lane.scene.get() ||
-                             last.lod != lane.lod || last.camera != camera ||
-                             last.options != options || last.size != lane.size;
+        pictures[at].stale = isStale(last, lane, camera, options);
         if (pictures[at].stale)
-            queue.emplace_back(last.drawn_at, at);
+            queue.push_back({costOf(last, lane) > budget_ms, last.drawn_at, at});
     }
     std::sort(queue.begin(), queue.end());
     const auto begin = std::chrono::steady_clock::now();
     for (std::size_t done = 0; done < queue.size(); ++done) {
-        const std::size_t at = queue[done].second;
+        const std::size_t at = queue[done].place;
         Item& item = items_.at(wanted[at].key);
-        if (done > 0 && millisecondsSince(begin) + item.cost_ms > budget_ms)
+        const double left_ms = budget_ms - millisecondsSince(begin);
+        if (done > 0 && std::min(costOf(item, wanted[at]), budget_ms * 0.5) > left_ms)
             continue;
-        if (const auto drawn = drawItem(item, wanted[at], camera, options); !drawn)
+        const Result<bool> drawn = drawItem(item, wanted[at], camera, options, left_ms);
+        if (!drawn)
             return tl::unexpected(drawn.error());
-        pictures[at].stale = false;
-        pictures[at].drew = true;
+        pictures[at].stale = !*drawn;
+        pictures[at].drew = *drawn;
     }
     for (Picture& picture : pictures)
         if (const auto item = items_.find(picture.key);
             item != items_.end() && item->second.drawn) {
             picture.texture = item->second.view.texture();
-            picture.cost_ms = item->second.cost_ms;
+            picture.draft = item->second.shows_draft;
+            picture.cost_ms = item->second.full.cost_ms;
+            picture.draft_cost_ms = item->second.draft.cost_ms;
         }
     return pictures;
 }
@@ -125,8 +168,8 @@ std::optional<Picked> ViewSet::pick(std::uint32_t key, const glm::dvec2& point) 
     const auto scene = scenes_.find(last.scene);
     if (scene == scenes_.end())
         return std::nullopt;
-    return lodestone::pick({&scene->second, &last.handle, last.camera, last.options, last.size},
-                           point);
+    return lodestone::pick(
+        {&scene->second, &last.shown().handle, last.camera, last.options, last.size}, point);
 }
 
 } // namespace lodestone

@@ -18,21 +18,28 @@ public:
         std::uint32_t key = 0; // of the lane; keeps its picture between calls
         ScenePtr scene;        // null: no picture
         std::shared_ptr<const Lod> lod;
+        // Of the same scene; drawn instead, with hard edges, while it is set: a coarser one while
+        // the camera moves. Both stay on the GPU.
+        std::shared_ptr<const Lod> draft;
         ViewSize size;
     };
 
     struct Picture {
         std::uint32_t key = 0;
-        TextureHandle texture = 0; // of the last draw, perhaps of an older state
-        bool stale = true;         // not yet what was wanted
-        bool drew = false;         // by this call
-        double cost_ms = 0.0;      // of its last measured draw; 0: unknown
+        TextureHandle texture = 0;  // of the last draw, perhaps of an older state
+        bool stale = true;          // not yet what was wanted
+        bool draft = false;         // it shows a draft
+        bool drew = false;          // by this call
+        double cost_ms = 0.0;       // of the last measured draw of its LOD; 0: unknown
+        double draft_cost_ms = 0.0; // the same of its draft
     };
 
-    // Draws stale pictures, the one that waits longest first, until budget_ms is spent; always at
-    // least one. Lanes that are not wanted any more lose their pictures, scenes that no lane wants
-    // their GPU memory. Result: one picture for each wanted lane, in order.
-    // Errors: those of GpuScene and View.
+    // Draws stale pictures, cheap ones first and then the one that waits longest, until budget_ms
+    // is spent; always goes on with at least one. Where the CPU draws, one that costs more than
+    // the budget is drawn over several calls, and starts again if it changes before it is done.
+    // Lanes that are not wanted any more lose their pictures, scenes that no lane wants their GPU
+    // memory. Result: one picture for each wanted lane, in order. Errors: those of GpuScene and
+    // View.
     Result<std::vector<Picture>> draw(std::span<const Wanted> wanted,
                                       const OrbitCamera& camera,
                                       const ViewOptions& options,
@@ -46,24 +53,41 @@ private:
         explicit Item(View made) : view(std::move(made)) {}
 
         View view;
-        LodHandle handle;
+
+        struct Uploaded {
+            LodHandle handle;
+            std::shared_ptr<const Lod> lod;
+            double cost_ms = 0.0;
+        };
+
+        const Uploaded& shown() const { return shows_draft ? draft : full; }
+
+        Uploaded full;
+        Uploaded draft;
+        bool shows_draft = false;
         const Scene* scene = nullptr; // drawn last
-        std::shared_ptr<const Lod> lod;
         OrbitCamera camera;
         ViewOptions options;
         ViewSize size;
         std::uint64_t drawn_at = 0; // turn of the last draw
-        double cost_ms = 0.0;
-        bool drawn = false;
+        bool drawn = false;         // it has a picture, perhaps of another state
+        bool complete = false;      // the picture shows what the members above say
     };
 
     Result<Item*> itemOf(std::uint32_t key);
     Result<GpuScene*> sceneOf(const ScenePtr& scene);
+    static bool isStale(const Item& item,
+                        const Wanted& wanted,
+                        const OrbitCamera& camera,
+                        const ViewOptions& options);
     void forgetUnwanted(std::span<const Wanted> wanted);
-    Result<void> drawItem(Item& item,
+    // Returns whether the picture is complete.
+    Result<bool> drawItem(Item& item,
                           const Wanted& wanted,
                           const OrbitCamera& camera,
-                          const ViewOptions& options);
+                          const ViewOptions& options,
+                          double budget_ms);
+    static double costOf(const Item& item, const Wanted& wanted); // 0: unknown
 
     Renderer renderer_;
     std::map<std::uint32_t, Item> items_;

@@ -1,0 +1,104 @@
+// Pictures that are drawn over several calls.
+#include "render/gl_context.h"
+#include "render/renderer.h"
+#include "render/view.h"
+#include "render/view_set.h"
+#include "scene/generate.h"
+
+#include <gtest/gtest.h>
+
+namespace lodestone {
+namespace {
+
+class SlicesTest : public testing::Test {
+protected:
+    void SetUp() override {
+        auto context = createHeadlessContext();
+        if (!context)
+            GTEST_SKIP() << context.error().message;
+        context_ = std::move(*context);
+        if (!context_->info().is_software)
+            GTEST_SKIP() << "only software renderers draw in slices";
+        auto renderer = Renderer::create(*context_);
+        ASSERT_TRUE(renderer) << renderer.error().message;
+        renderer_.emplace(std::move(*renderer));
+        auto scene = generateScene("maple", 1);
+        ASSERT_TRUE(scene) << scene.error().message;
+        scene_ = *scene;
+        camera_.distance = 40.0;
+        frameCamera(camera_, robustWorldBounds(*scene_), 1.0);
+    }
+
+    static constexpr ViewSize kSize{160, 160};
+    std::unique_ptr<GlContext> context_;
+    std::optional<Renderer> renderer_;
+    ScenePtr scene_;
+    OrbitCamera camera_;
+};
+
+TEST_F(SlicesTest, ManySlicesGiveThePictureOfOneDraw) {
+    auto gpu = GpuScene::create(*renderer_, scene_);
+    ASSERT_TRUE(gpu) << gpu.error().message;
+    LodHandle lod;
+    ASSERT_TRUE(gpu->update(lod, fullLod(*scene_)));
+    const View::Input input{&*gpu, &lod, camera_, {}, kSize};
+    auto whole = View::create(*renderer_);
+    auto sliced = View::create(*renderer_);
+    ASSERT_TRUE(whole && sliced);
+    const auto once = whole->draw(input);
+    ASSERT_TRUE(once) << once.error().message;
+    int calls = 0;
+    Result<DrawReport> last = DrawReport{};
+    do {
+        last = sliced->draw(input, 0.0);
+        ASSERT_TRUE(last) << last.error().message;
+        ASSERT_LT(++calls, 1000);
+    } while (!last->complete);
+    EXPECT_GT(calls, 3);
+    EXPECT_TRUE(last->drew);
+    EXPECT_EQ(last->triangles, once->triangles);
+    EXPECT_EQ(whole->readPixels()->rgba, sliced->readPixels()->rgba);
+    const auto again = sliced->draw(input, 0.0);
+    ASSERT_TRUE(again);
+    EXPECT_TRUE(again->complete && !again->drew);
+}
+
+TEST_F(SlicesTest, AnotherCameraStartsThePictureAgain) {
+    auto gpu = GpuScene::create(*renderer_, scene_);
+    ASSERT_TRUE(gpu) << gpu.error().message;
+    LodHandle lod;
+    ASSERT_TRUE(gpu->update(lod, fullLod(*scene_)));
+    View::Input input{&*gpu, &lod, camera_, {}, kSize};
+    auto whole = View::create(*renderer_);
+    auto sliced = View::create(*renderer_);
+    ASSERT_TRUE(whole && sliced);
+    ASSERT_FALSE(sliced->draw(input, 0.0)->complete);
+    orbitCamera(input.camera, 1.0, 0.2);
+    while (!sliced->draw(input, 0.0)->complete) {
+    }
+    ASSERT_TRUE(whole->draw(input));
+    EXPECT_EQ(whole->readPixels()->rgba, sliced->readPixels()->rgba);
+}
+
+TEST_F(SlicesTest, ADraftIsShownUntilItIsNoLongerWanted) {
+    ViewSet views(*renderer_);
+    const auto full = std::make_shared<const Lod>(fullLod(*scene_));
+    Lod few = *full;
+    for (LodSubmesh& submesh : few.submeshes)
+        submesh.kept_instances = 1;
+    const auto draft = std::make_shared<const Lod>(std::move(few));
+    std::vector<ViewSet::Wanted> wanted{{1, scene_, full, draft, kSize}};
+    auto drawn = views.draw(wanted, camera_, {}, 1e9);
+    ASSERT_TRUE(drawn) << drawn.error().message;
+    EXPECT_TRUE(drawn->front().draft && drawn->front().drew && !drawn->front().stale);
+    drawn = views.draw(wanted, camera_, {}, 1e9);
+    ASSERT_TRUE(drawn);
+    EXPECT_FALSE(drawn->front().drew) << "nothing changed";
+    wanted[0].draft = nullptr;
+    drawn = views.draw(wanted, camera_, {}, 1e9);
+    ASSERT_TRUE(drawn);
+    EXPECT_TRUE(!drawn->front().draft && drawn->front().drew && !drawn->front().stale);
+}
+
+} // namespace
+} // namespace lodestone
