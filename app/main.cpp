@@ -1,9 +1,13 @@
 // The only file that knows every room: gives the command line its pixels and opens the window.
 #include "app/cli.h"
+#include "app/signals.h"
 #include "render/view.h"
 #ifdef LODESTONE_WITH_WINDOW
+#include "app/drafts.h"
+#include "app/frame_times.h"
 #include "app/session.h"
 #include "render/view_set.h"
+#include "ui/fonts.h"
 #include "ui/host.h"
 #include "ui/window.h"
 #endif
@@ -11,42 +15,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <csignal>
 #include <cstdlib>
 #include <iostream>
 #include <numbers>
-#include <thread>
 #include <unistd.h>
-#ifdef LODESTONE_WITH_WINDOW
-#include <fontconfig/fontconfig.h>
-#endif
 
 namespace lodestone {
 
 namespace {
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
-
-// File of the system's sans-serif font, for labels below pictures; empty: no labels.
-std::filesystem::path labelFont() {
-#ifdef LODESTONE_WITH_WINDOW
-    std::filesystem::path file;
-    FcPattern* const pattern = FcNameParse(reinterpret_cast<const FcChar8*>("sans:style=Regular"));
-    FcConfigSubstitute(nullptr, pattern, FcMatchPattern);
-    FcDefaultSubstitute(pattern);
-    FcResult matched = FcResultNoMatch;
-    FcPattern* const font = FcFontMatch(nullptr, pattern, &matched);
-    FcChar8* name = nullptr;
-    if (font && FcPatternGetString(font, FC_FILE, 0, &name) == FcResultMatch)
-        file = reinterpret_cast<const char*>(name);
-    if (font)
-        FcPatternDestroy(font);
-    FcPatternDestroy(pattern);
-    return file;
-#else
-    return {};
-#endif
-}
 
 OrbitCamera cameraFor(const RenderRequest& request, const Bounds& bounds) {
     const double aspect = static_cast<double>(request.width_px) / request.height_px;
@@ -164,7 +142,9 @@ private:
         Result<Pixels> sheet = cells[0].picture;
         if (cells.size() > 1) {
             SheetOptions options;
-            options.font = labelFont();
+#ifdef LODESTONE_WITH_WINDOW
+            options.font = ui::systemFontFile();
+#endif
             sheet = composeSheet(cells, options);
         }
         if (!sheet)
@@ -175,36 +155,6 @@ private:
         report.height_px = sheet->height;
         return report;
     }
-};
-
-// Turns Ctrl+C and SIGTERM into a stop request; the second one ends the process at once. Made
-// before any other thread, so that all of them inherit the blocked signals.
-class SignalWatcher {
-public:
-    SignalWatcher() {
-        sigemptyset(&signals_);
-        sigaddset(&signals_, SIGINT);
-        sigaddset(&signals_, SIGTERM);
-        pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
-        watcher_ = std::jthread(
-            [signals = signals_, source = source_](const std::stop_token& finished) mutable {
-                constexpr timespec kPatience{0, 50'000'000};
-                while (!finished.stop_requested()) {
-                    if (sigtimedwait(&signals, nullptr, &kPatience) < 0)
-                        continue;
-                    if (source.stop_requested())
-                        _exit(exitCode(ErrorKind::Cancelled));
-                    source.request_stop();
-                }
-            });
-    }
-
-    std::stop_token token() const { return source_.get_token(); }
-
-private:
-    sigset_t signals_{};
-    std::stop_source source_;
-    std::jthread watcher_;
 };
 
 std::string optionalParts() {
@@ -250,8 +200,13 @@ public:
                const Renderer& renderer,
                Session& session,
                const WindowRequest& request)
-        : context_(context), session_(session), pictures_(renderer), host_(context.nativeWindow()),
+        : context_(context), session_(session), pictures_(renderer),
+          drafts_(context.info().is_software ? kSoftwareMsPerTriangle : 0.0),
+          host_(context.nativeWindow()),
           window_(session, host_.theme(), {.welcome = !request.file}) {
+        session_.setFraming([this](const Document& document, const Bounds& part) {
+            return framedCamera(document, part);
+        });
         facts_.renderer = shortRendererName(context.info().renderer);
         if (request.file)
             commands_.push(OpenScene{*request.file});
@@ -259,10 +214,11 @@ public:
             commands_.push(OpenSample{"maple", 1});
     }
 
-    void run(const std::stop_token& stop, std::ostream& err) {
+    void run(const std::stop_token& stop) {
         while (!window_.wantsToQuit() && !stop.stop_requested()) {
             if (host_.waitEvents(waitTime()))
                 settle_ = kSettlePasses;
+            begun_ = Clock::now();
             window_.drop(host_.takeDroppedFiles(), commands_);
             if (host_.takeCloseRequest())
                 window_.askToQuit();
@@ -270,7 +226,7 @@ public:
                 settle_ = std::max(settle_, 1);
             const bool due = std::chrono::steady_clock::now() >= wake_at_;
             if (!host_.minimised() && (settle_ > 0 || stale_ || due))
-                drawFrame(err);
+                drawFrame();
         }
     }
 
@@ -279,7 +235,9 @@ private:
 
     static constexpr int kSettlePasses = 3; // frames until hovering and layout have settled
     static constexpr double kPictureBudget_ms = 25.0;
-    static constexpr double kLongestWait_s = 0.5; // finished jobs are noticed within it
+    static constexpr double kSoftwareMsPerTriangle = 0.0002; // llvmpipe on two cores
+    static constexpr std::chrono::milliseconds kRest{150};   // no input for so long: refine
+    static constexpr double kLongestWait_s = 0.5;            // finished jobs are noticed within it
 
     // "llvmpipe" of "llvmpipe (LLVM 15.0.6, 256 bits)".
     static std::string shortRendererName(const std::string& renderer) {
@@ -294,7 +252,7 @@ private:
         return std::clamp(left.count(), 0.001, longest);
     }
 
-    void drawFrame(std::ostream& err) {
+    void drawFrame() {
         settle_ = std::max(0, settle_ - 1);
         facts_.width_px = host_.widthPx();
         facts_.height_px = host_.heightPx();
@@ -307,7 +265,7 @@ private:
             commands_.push(FrameScene{});
             again = session_.update(commands_) || again;
         }
-        again = drawPictures(err) || again;
+        again = drawPictures() || again;
         if (again) { // numbers and pictures of this frame, not of the last one
             host_.discardPass();
             host_.beginPass();
@@ -322,11 +280,16 @@ private:
 
     void finishFrame() {
         session_.uiLog().frame(++facts_.frame);
+        const std::chrono::duration<double, std::milli> time = Clock::now() - begun_;
+        if (const auto told = frame_times_.add(Clock::now(), time.count()))
+            session_.uiLog().object("frames", "frames", *told);
         if (!commands_.empty())
             settle_ = std::max(settle_, 2);
         const double wake_s = std::min(window_.wakeIn(), 3600.0);
         wake_at_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                       std::chrono::duration<double>(wake_s));
+        if (rests_at_ > Clock::now() || shows_draft_)
+            wake_at_ = std::min(wake_at_, rests_at_);
         if (window_.takeFullScreenToggle())
             host_.toggleFullScreen();
         const Document& document = session_.document();
@@ -334,8 +297,9 @@ private:
     }
 
     // Returns whether any picture is another than before.
-    bool drawPictures(std::ostream& err) {
+    bool drawPictures() {
         const Document& document = session_.document();
+        const bool moving = noteMotion(document);
         std::vector<ViewSet::Wanted> wanted;
         for (const ui::ViewRequest& view : window_.views()) {
             const Lane* const lane = document.findLane(view.lane);
@@ -343,51 +307,107 @@ private:
                 wanted.push_back({view.lane,
                                   lane->status.scene,
                                   lane->status.lod,
+                                  moving ? drafts_.draftOf(document, *lane) : nullptr,
                                   {view.width_px, view.height_px}});
         }
-        const double aspect = wanted.empty() ? 1.0 : wanted.front().size.aspect();
-        const auto drawn = pictures_.draw(wanted,
-                                          orbitCamera(document.camera, document.bounds, aspect),
-                                          viewOptions(document.view),
-                                          kPictureBudget_ms);
+        const auto drawn =
+            pictures_.draw(wanted,
+                           orbitCamera(document.camera, document.bounds, viewAspect()),
+                           viewOptions(document.view),
+                           kPictureBudget_ms);
         if (!drawn) {
-            if (drawn.error().message != last_error_)
-                err << "lodestone: " << drawn.error().message << '\n';
-            last_error_ = drawn.error().message;
+            session_.reportError(drawn.error().message); // repeats are counted, not listed again
             return false;
         }
         return takePictures(*drawn);
+    }
+
+    double viewAspect() const {
+        if (window_.views().empty())
+            return 1.0;
+        const ui::ViewRequest& view = window_.views().front();
+        return ViewSize{view.width_px, view.height_px}.aspect();
+    }
+
+    // Whether camera, display or a lane's LOD has changed within the last moment.
+    bool noteMotion(const Document& document) {
+        std::uint64_t revisions = document.scene_revision;
+        for (const Lane& lane : document.lanes)
+            revisions += lane.status.lod_revision;
+        if (!(document.camera == seen_camera_) || !(document.view == seen_view_) ||
+            revisions != seen_revisions_) {
+            seen_camera_ = document.camera;
+            seen_view_ = document.view;
+            seen_revisions_ = revisions;
+            rests_at_ = Clock::now() + kRest;
+        }
+        return Clock::now() < rests_at_;
+    }
+
+    // The camera turned as it is, near enough that the part, or the whole scene if it is empty,
+    // fills the views.
+    CameraState framedCamera(const Document& document, const Bounds& part) {
+        if (framed_scene_ != document.scene) {
+            framed_scene_ = document.scene;
+            frame_points_ = framePoints(*document.scene, document.bounds);
+        }
+        const double aspect = viewAspect();
+        OrbitCamera camera = orbitCamera(document.camera, document.bounds, aspect);
+        if (part.empty)
+            frameCamera(camera, frame_points_, aspect);
+        else
+            frameSelection(camera, part, aspect);
+        CameraState framed = document.camera;
+        framed.target = camera.target;
+        framed.distance = camera.distance;
+        return framed;
     }
 
     bool takePictures(const std::vector<ViewSet::Picture>& drawn) {
         bool changed = drawn.size() != shown_.size();
         shown_.clear();
         stale_ = false;
+        shows_draft_ = false;
         for (const ViewSet::Picture& picture : drawn) {
             changed = changed || picture.drew;
             stale_ = stale_ || picture.stale;
-            if (picture.drew && picture.cost_ms > 0.0)
-                session_.setFrameTime(picture.key, picture.cost_ms);
+            shows_draft_ = shows_draft_ || picture.draft;
+            if (const Lane* const lane = session_.document().findLane(picture.key);
+                lane && picture.drew) {
+                drafts_.setCosts(*lane, picture.cost_ms, picture.draft_cost_ms);
+                if (picture.cost_ms > 0.0)
+                    session_.setFrameTime(picture.key, picture.cost_ms);
+            }
             shown_.push_back(
                 {picture.key,
                  reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(picture.texture)),
-                 picture.stale});
+                 picture.stale || picture.draft});
         }
+        drafts_.forgetOthers(session_.document());
         return changed;
     }
 
     GlContext& context_;
     Session& session_;
     ViewSet pictures_;
+    Drafts drafts_;
     ui::Host host_;
     ui::Window window_;
     ui::WindowFacts facts_;
     CommandQueue commands_;
     std::vector<ui::LanePicture> shown_;
-    std::string last_error_;
+    FrameTimes frame_times_;
+    ScenePtr framed_scene_;
+    FramePoints frame_points_; // of framed_scene_
+    CameraState seen_camera_;
+    DisplayOptions seen_view_;
+    std::uint64_t seen_revisions_ = 0;
+    Clock::time_point begun_ = Clock::now(); // this frame
     Clock::time_point wake_at_ = Clock::now();
+    Clock::time_point rests_at_ = Clock::now(); // nothing has moved by then: drafts go
     int settle_ = kSettlePasses;
     bool stale_ = false;
+    bool shows_draft_ = false;
 };
 
 int openWindow(const WindowRequest& request, const CliEnvironment& environment) {
@@ -407,7 +427,7 @@ int openWindow(const WindowRequest& request, const CliEnvironment& environment) 
     options.log_file = uiLogFileFromEnvironment();
     Session session(options);
     WindowLoop loop(**context, *renderer, session, request);
-    loop.run(environment.stop, environment.err);
+    loop.run(environment.stop);
     return 0;
 }
 

@@ -62,6 +62,7 @@ struct Session::Impl {
     std::map<JobId, std::filesystem::path> export_paths;
     std::map<JobId, std::uint64_t> export_revisions; // of the document at the start
     std::uint64_t logged_messages = 0;
+    Framing framing;
 
     explicit Impl(Options session_options)
         : options(std::move(session_options)), log(options.log_file),
@@ -159,6 +160,20 @@ struct Session::Impl {
 
     void run(const RetryLane& command) { lanes.retry(command.lane); }
 
+    void run(const FrameScene& command) {
+        if (framing && document.scene)
+            document.camera = framing(document, {});
+        else
+            applyCommand(document, command);
+    }
+
+    void run(const FrameSelection& command) {
+        if (framing && document.scene)
+            document.camera = framing(document, selectionBounds(document));
+        else
+            applyCommand(document, command);
+    }
+
     template <class Edit>
     void run(const Edit& command) {
         applyCommand(document, command);
@@ -188,6 +203,8 @@ struct Session::Impl {
             return;
         }
         resetDocument(document, std::move(std::get<LoadedScene>(*finished.result)));
+        if (framing)
+            document.camera.distance = 0.0; // framed once the views have their shape
         for (const std::string& note : document.scene->notes)
             report(document, Severity::Warning, note);
         if (document.path.empty())
@@ -341,6 +358,14 @@ std::uint64_t Session::predictedBytes(LaneId lane_id, const ExportOptions& optio
 void Session::setFrameTime(LaneId lane_id, double frame_ms) {
     if (Lane* lane = impl_->document.findLane(lane_id))
         lane->status.frame_ms = frame_ms;
+}
+
+void Session::setFraming(Framing framing) {
+    impl_->framing = std::move(framing);
+}
+
+void Session::reportError(std::string message) {
+    report(impl_->document, Severity::Error, std::move(message));
 }
 
 UiLog& Session::uiLog() {

@@ -37,6 +37,12 @@ public:
     std::uint64_t predictedBytes(LaneId lane, const ExportOptions& options);
     // The window reports what drawing a lane cost.
     void setFrameTime(LaneId lane, double frame_ms);
+    // What FrameScene, FrameSelection and opening a scene do to the camera where a view's shape is
+    // known; part: empty for everything. Without it bounding spheres are framed.
+    using Framing = std::function<CameraState(const Document&, const Bounds& part)>;
+    void setFraming(Framing framing);
+    // Something outside the session went wrong: one line for the user. Repeats are counted.
+    void reportError(std::string message);
     // Shared with the panels, which add widget rectangles.
     UiLog& uiLog();
 

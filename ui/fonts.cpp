@@ -95,6 +95,10 @@ FontFiles findFontFiles() {
 
 } // namespace
 
+std::filesystem::path systemFontFile() {
+    return findFontFiles().regular;
+}
+
 Fonts loadFonts(float scale) {
     ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
     atlas.Clear();
