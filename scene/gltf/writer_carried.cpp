@@ -113,6 +113,40 @@ PackedElements packElements(const SourceDocument& source, const json& accessor) 
     return packed;
 }
 
+PackedElements
+resolvedElements(const SourceDocument& source, const json& accessor, std::size_t count) {
+    PackedElements packed = packElements(source, accessor);
+    packed.bytes.resize(count * packed.element_bytes);
+    const auto sparse = accessor.find("sparse");
+    if (sparse == accessor.end() || !sparse->is_object())
+        return packed;
+    const json places = sparse->value("indices", json::object());
+    const std::size_t index_bytes = componentBytes(numberOr(places, "componentType", 0));
+    const auto part = [&](const char* key, std::size_t element_bytes) {
+        const json place = sparse->value(key, json::object());
+        return gather(viewBytes(source, numberOr(place, "bufferView", ~0ULL)),
+                      place,
+                      element_bytes,
+                      std::min<std::uint64_t>(numberOr(*sparse, "count", 0), count),
+                      element_bytes);
+    };
+    if (index_bytes == 0 || packed.element_bytes == 0)
+        return packed;
+    const std::vector<std::byte> indices = part("indices", index_bytes);
+    const std::vector<std::byte> values = part("values", packed.element_bytes);
+    const std::size_t known =
+        std::min(indices.size() / index_bytes, values.size() / packed.element_bytes);
+    for (std::size_t i = 0; i < known; ++i) {
+        std::uint32_t element = 0; // little-endian, as glTF
+        std::memcpy(&element, indices.data() + i * index_bytes, index_bytes);
+        if (element < count)
+            std::memcpy(packed.bytes.data() + element * packed.element_bytes,
+                        values.data() + i * packed.element_bytes,
+                        packed.element_bytes);
+    }
+    return packed;
+}
+
 void CarriedData::placePacked(json& place, Use use, std::span<const std::byte> bytes) {
     std::vector<std::byte>& packed = packed_[static_cast<std::size_t>(use)];
     place["bufferView"] = packedView(use);

@@ -20,6 +20,9 @@ struct PackedElements {
 std::size_t elementBytes(const nlohmann::json& accessor);
 // Sparse values are not applied. Out of range: zeros, and no more than the buffers hold is made.
 PackedElements packElements(const SourceDocument& source, const nlohmann::json& accessor);
+// The first `count` elements with sparse values applied; zeros where there is no data.
+PackedElements
+resolvedElements(const SourceDocument& source, const nlohmann::json& accessor, std::size_t count);
 
 class CarriedData {
 public:

@@ -78,6 +78,8 @@ private:
             GroupPlan& group = plan_.groups[to.group];
             group.rows = std::max(group.rows, to.row + 1);
         }
+        for (const auto& [node, group] : group_of_node)
+            fillFileGroup(plan_.groups[group], node);
     }
 
     void addFileGroup(const Instance& instance) {
@@ -85,11 +87,16 @@ private:
         group.submesh = instance.submesh;
         group.node = planOf(instance.node);
         plan_.nodes[group.node].group = static_cast<std::uint32_t>(plan_.groups.size());
-        const json& entry = document_["nodes"][scene_.source->node_of_node[instance.node]];
+        plan_.groups.push_back(std::move(group));
+    }
+
+    // The group's rows are known.
+    void fillFileGroup(GroupPlan& group, std::uint32_t scene_node) {
+        const json& entry = document_["nodes"][planOf(scene_node)];
         for (const auto& [name, number] :
              entry["extensions"][kGpuInstancing]["attributes"].items()) {
-            json accessor = scene_.source->json["accessors"][number.get<std::size_t>()];
-            PackedElements packed = packElements(*scene_.source, accessor);
+            const json& accessor = scene_.source->json["accessors"][number.get<std::size_t>()];
+            PackedElements packed = resolvedElements(*scene_.source, accessor, group.rows);
             GroupAttribute attribute;
             attribute.key = dumpJson(name) + ":";
             json format = json::object();
@@ -101,7 +108,6 @@ private:
             attribute.bytes = std::move(packed.bytes);
             group.attributes.push_back(std::move(attribute));
         }
-        plan_.groups.push_back(std::move(group));
     }
 
     // A row as a node of its own, below the node that held it.
