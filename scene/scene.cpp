@@ -1,12 +1,15 @@
 #include "scene/scene.h"
+
 #include "scene/lod.h"
 #include "scene/result.h"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
 namespace lodestone {
@@ -123,8 +126,8 @@ void setAttributeValue(Attribute& attribute,
 }
 
 const Attribute* findAttribute(std::span<const Attribute> attributes, std::string_view semantic) {
-    const auto found =
-        std::ranges::find_if(attributes, [&](const Attribute& a) { return a.semantic == semantic; });
+    const auto found = std::ranges::find_if(
+        attributes, [&](const Attribute& a) { return a.semantic == semantic; });
     return found == attributes.end() ? nullptr : &*found;
 }
 
@@ -172,7 +175,9 @@ void Bounds::add(const glm::dvec3& point) {
     empty = false;
 }
 
-double Bounds::diagonal() const { return empty ? 0.0 : glm::length(max - min); }
+double Bounds::diagonal() const {
+    return empty ? 0.0 : glm::length(max - min);
+}
 
 Bounds localBounds(const Submesh& submesh) {
     Bounds bounds;
@@ -192,23 +197,49 @@ Bounds joined(Bounds a, const Bounds& b) {
     return a;
 }
 
+bool contains(const Bounds& outer, const Bounds& inner) {
+    return !outer.empty && glm::all(glm::lessThanEqual(outer.min, inner.min)) &&
+           glm::all(glm::greaterThanEqual(outer.max, inner.max));
+}
+
+// A box around a transformed box.
+Bounds transformedBox(const glm::dmat4& transform, const Bounds& box) {
+    const glm::dvec3 center(transform * glm::dvec4(box.center(), 1.0));
+    const glm::dvec3 half = box.size() * 0.5;
+    glm::dvec3 reach(0.0);
+    for (int axis = 0; axis < 3; ++axis)
+        reach += glm::abs(glm::dvec3(transform[axis])) * half[axis];
+    Bounds bounds;
+    bounds.add(center - reach);
+    bounds.add(center + reach);
+    return bounds;
+}
+
 // Bounds of every instanced vertex that lies within `limit` of `origin` (no limit if negative).
+// Only instances whose box sticks out of the bounds so far are looked at closely: a few in a
+// hundred.
 Bounds boundsWithin(const Scene& scene, const glm::dvec3& origin, double limit) {
-    const auto addInstance = [&](Bounds bounds, const Instance& instance) {
+    std::vector<Bounds> boxes(scene.submeshes.size());
+    tbb::parallel_for(std::size_t{0}, boxes.size(), [&](std::size_t s) {
+        boxes[s] = localBounds(scene.submeshes[s]);
+    });
+    const auto addInstance = [&](Bounds& bounds, const Instance& instance) {
+        const Bounds& box = boxes[instance.submesh];
+        if (box.empty || contains(bounds, transformedBox(instance.transform, box)))
+            return;
         for (const Primitive& primitive : scene.submeshes[instance.submesh].primitives)
             for (const glm::vec3& position : primitive.geometry->positions) {
                 const glm::dvec3 world(instance.transform * glm::dvec4(glm::dvec3(position), 1.0));
                 if (limit < 0.0 || glm::length(world - origin) <= limit)
                     bounds.add(world);
             }
-        return bounds;
     };
     return tbb::parallel_reduce(
-        tbb::blocked_range<std::size_t>(0, scene.instances.size()),
+        tbb::blocked_range<std::size_t>(0, scene.instances.size(), 1024),
         Bounds{},
         [&](const tbb::blocked_range<std::size_t>& range, Bounds bounds) {
             for (std::size_t i = range.begin(); i != range.end(); ++i)
-                bounds = addInstance(bounds, scene.instances[i]);
+                addInstance(bounds, scene.instances[i]);
             return bounds;
         },
         joined);
@@ -222,15 +253,14 @@ struct Bulk {
 
 Bulk findBulk(const Scene& scene) {
     std::vector<glm::dvec3> points;
-    const std::size_t instance_step = scene.instances.size() / 512 + 1;
+    const std::size_t instance_step = scene.instances.size() / 256 + 1;
     for (std::size_t i = 0; i < scene.instances.size(); i += instance_step) {
         const Instance& instance = scene.instances[i];
         for (const Primitive& primitive : scene.submeshes[instance.submesh].primitives) {
             const std::vector<glm::vec3>& positions = primitive.geometry->positions;
-            const std::size_t step = positions.size() / 64 + 1;
+            const std::size_t step = positions.size() / 16 + 1;
             for (std::size_t v = 0; v < positions.size(); v += step)
-                points.emplace_back(instance.transform *
-                                    glm::dvec4(glm::dvec3(positions[v]), 1.0));
+                points.emplace_back(instance.transform * glm::dvec4(glm::dvec3(positions[v]), 1.0));
         }
     }
     Bulk bulk;
@@ -238,7 +268,8 @@ Bulk findBulk(const Scene& scene) {
         return bulk;
     std::vector<double> values(points.size());
     for (int axis = 0; axis < 3; ++axis) {
-        std::ranges::transform(points, values.begin(), [&](const glm::dvec3& p) { return p[axis]; });
+        std::ranges::transform(
+            points, values.begin(), [&](const glm::dvec3& p) { return p[axis]; });
         std::ranges::sort(values);
         bulk.median[axis] = values[values.size() / 2];
         const double low = values[values.size() / 20];
@@ -250,7 +281,9 @@ Bulk findBulk(const Scene& scene) {
 
 } // namespace
 
-Bounds worldBounds(const Scene& scene) { return boundsWithin(scene, glm::dvec3(0.0), -1.0); }
+Bounds worldBounds(const Scene& scene) {
+    return boundsWithin(scene, glm::dvec3(0.0), -1.0);
+}
 
 Bounds robustWorldBounds(const Scene& scene) {
     const Bounds all = worldBounds(scene);

@@ -280,7 +280,8 @@ void ComponentMesh::addVersion(std::uint32_t wedge, Float3 position) {
         return;
     if (attributes_.carries)
         log_.version_carrier.push_back(wedge_carrier_[wedge]);
-    const auto from = values_.begin() + static_cast<std::ptrdiff_t>(wedge * attributes_.size);
+    const auto from =
+        values_.begin() + static_cast<std::ptrdiff_t>(std::size_t{wedge} * attributes_.size);
     log_.version_values.insert(log_.version_values.end(), from, from + attributes_.size);
 }
 

@@ -158,7 +158,7 @@ void addPrimitive(Welder& welder, const Geometry& geometry, const JobContext& jo
 // Removes faces that repeat another one of the same primitive: same vertices, same orientation.
 // Faces are compared within the bucket of their smallest vertex.
 void dropDoubles(Complex& complex, std::uint32_t begin, const JobContext& job) {
-    const auto cornersOf = [&](std::uint32_t f) {
+    const auto corners_of = [&](std::uint32_t f) {
         std::array<std::uint32_t, 3> v;
         for (std::size_t k = 0; k < 3; ++k)
             v[k] = complex.wedge_vertex[complex.faces[f][k]];
@@ -168,7 +168,7 @@ void dropDoubles(Complex& complex, std::uint32_t begin, const JobContext& job) {
     const auto end = static_cast<std::uint32_t>(complex.faces.size());
     std::vector<std::uint32_t> at(complex.positions.size() + 1, 0);
     for (std::uint32_t f = begin; f < end; ++f)
-        ++at[cornersOf(f)[0] + 1];
+        ++at[corners_of(f)[0] + 1];
     std::partial_sum(at.begin(), at.end(), at.begin());
 
     struct Sides {
@@ -182,7 +182,7 @@ void dropDoubles(Complex& complex, std::uint32_t begin, const JobContext& job) {
     for (std::uint32_t f = begin; f < end; ++f) {
         if (stopsAt(f, job))
             return;
-        const auto [first, second, third] = cornersOf(f);
+        const auto [first, second, third] = corners_of(f);
         const Sides sides{second, third};
         std::uint32_t slot = at[first];
         while (bucket[slot] != sides && bucket[slot] != Sides{})

@@ -154,7 +154,8 @@ void ComponentMesh::buildWedges() {
         const std::size_t from = std::size_t{log_.wedges[w]} * attributes_.size;
         std::copy_n(attributes_.values.begin() + static_cast<std::ptrdiff_t>(from),
                     attributes_.size,
-                    values_.begin() + static_cast<std::ptrdiff_t>(w * attributes_.size));
+                    values_.begin() +
+                        static_cast<std::ptrdiff_t>(std::size_t{w} * attributes_.size));
     }
 }
 
@@ -235,13 +236,13 @@ bool ComponentMesh::seamBetween(std::uint32_t face_a,
                                 std::uint32_t vertex) const {
     if (face_wedges_.empty())
         return false;
-    const auto wedgeAt = [&](std::uint32_t face) {
+    const auto wedge_at = [&](std::uint32_t face) {
         const Corners& corners = faces_[face];
         const std::size_t k = corners[0] == vertex ? 0 : corners[1] == vertex ? 1 : 2;
         return face_wedges_[face][k];
     };
-    const std::uint32_t m = wedgeAt(face_a);
-    const std::uint32_t n = wedgeAt(face_b);
+    const std::uint32_t m = wedge_at(face_a);
+    const std::uint32_t n = wedge_at(face_b);
     if (m == n)
         return false;
     if (wedge_primitive_[m] != wedge_primitive_[n])
@@ -249,7 +250,7 @@ bool ComponentMesh::seamBetween(std::uint32_t face_a,
     const auto differs = [&](const WedgeAttributes::Slot& slot) {
         const auto at = [&](std::uint32_t wedge) {
             return values_.begin() +
-                   static_cast<std::ptrdiff_t>(wedge * attributes_.size + slot.offset);
+                   static_cast<std::ptrdiff_t>(std::size_t{wedge} * attributes_.size + slot.offset);
         };
         return !slot.unit && !std::equal(at(m), at(m) + slot.components, at(n));
     };

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <unordered_map>
 
 namespace lodestone {
 
@@ -166,33 +165,31 @@ std::vector<std::uint32_t> removalOrder(const std::vector<Member>& members) {
     return order;
 }
 
-// Distance of each newcomer to the nearest point already there; the grid is rebuilt finer whenever
-// the number of points has doubled, so that a cell holds about one.
+// Distance of each newcomer to the nearest point already there: a dense grid over known bounds that
+// is rebuilt finer whenever the number of points has doubled, so that a cell holds about one.
 class GrowingGrid {
 public:
+    explicit GrowingGrid(const Bounds& bounds) : bounds_(bounds) { rebuild(); }
+
     double nearest(const glm::dvec3& p) const {
-        double best = std::numeric_limits<double>::infinity();
-        if (points_.size() <= 8) {
-            for (const glm::dvec3& other : points_)
-                best = std::min(best, glm::length(other - p));
-            return best;
-        }
         const glm::ivec3 center = cellOf(p);
-        for (int ring = 0; ring <= kRings; ++ring) {
+        double best2 = std::numeric_limits<double>::infinity();
+        const int rings = std::max({size_.x, size_.y, size_.z});
+        for (int ring = 0; ring < rings; ++ring) {
+            const double safe = static_cast<double>(ring - 1) * cell_; // all nearer cells are done
+            if (ring > 0 && best2 <= safe * safe)
+                break;
             forShell(center, ring, [&](std::uint32_t id) {
-                best = std::min(best, glm::length(points_[id] - p));
+                const glm::dvec3 apart = points_[id] - p;
+                best2 = std::min(best2, glm::dot(apart, apart));
             });
-            if (best <= static_cast<double>(ring) * cell_)
-                return best;
         }
-        for (const glm::dvec3& other : points_) // far from all others: rare
-            best = std::min(best, glm::length(other - p));
-        return best;
+        return std::sqrt(best2);
     }
 
     void add(const glm::dvec3& p) {
-        bounds_.add(p);
         points_.push_back(p);
+        next_.push_back(kNone);
         if (points_.size() >= 2 * built_for_)
             rebuild();
         else
@@ -200,52 +197,68 @@ public:
     }
 
 private:
-    static constexpr int kRings = 6;
-
     glm::ivec3 cellOf(const glm::dvec3& p) const {
-        const glm::dvec3 scaled =
-            glm::clamp((p - origin_) / cell_, glm::dvec3(-1e6), glm::dvec3(1e6));
-        return glm::ivec3(glm::floor(scaled));
+        const glm::ivec3 cell(glm::floor((p - bounds_.min) / cell_));
+        return glm::clamp(cell, glm::ivec3(0), size_ - 1);
     }
 
-    static std::uint64_t keyOf(const glm::ivec3& cell) {
-        const auto part = [](int v) { return static_cast<std::uint64_t>(v + 0x100000) & 0x1FFFFF; };
-        return part(cell.x) << 42 | part(cell.y) << 21 | part(cell.z);
+    std::size_t indexOf(int x, int y, int z) const {
+        return (static_cast<std::size_t>(z) * static_cast<std::size_t>(size_.y) +
+                static_cast<std::size_t>(y)) *
+                   static_cast<std::size_t>(size_.x) +
+               static_cast<std::size_t>(x);
     }
 
+    // Cells exactly `ring` away along the farthest axis.
     template <class Visit>
     void forShell(const glm::ivec3& center, int ring, Visit visit) const {
-        for (int x = -ring; x <= ring; ++x)
-            for (int y = -ring; y <= ring; ++y)
-                for (int z = -ring; z <= ring; ++z) {
-                    if (std::max({std::abs(x), std::abs(y), std::abs(z)}) != ring)
-                        continue;
-                    const auto found = cells_.find(keyOf(center + glm::ivec3(x, y, z)));
-                    if (found != cells_.end())
-                        for (const std::uint32_t id : found->second)
+        const glm::ivec3 low = glm::max(center - ring, glm::ivec3(0));
+        const glm::ivec3 high = glm::min(center + ring, size_ - 1);
+        for (int z = low.z; z <= high.z; ++z)
+            for (int y = low.y; y <= high.y; ++y) {
+                const bool face = std::abs(z - center.z) == ring || std::abs(y - center.y) == ring;
+                const int step = face || ring == 0 ? 1 : 2 * ring; // else only both ends
+                for (int x = face ? low.x : center.x - ring; x <= high.x; x += step)
+                    if (x >= 0)
+                        for (std::uint32_t id = heads_[indexOf(x, y, z)]; id != kNone;
+                             id = next_[id])
                             visit(id);
-                }
+            }
     }
 
-    void insert(std::uint32_t id) { cells_[keyOf(cellOf(points_[id]))].push_back(id); }
+    void insert(std::uint32_t id) {
+        const glm::ivec3 cell = cellOf(points_[id]);
+        std::uint32_t& head = heads_[indexOf(cell.x, cell.y, cell.z)];
+        next_[id] = head;
+        head = id;
+    }
 
     void rebuild() {
-        built_for_ = points_.size();
-        origin_ = bounds_.min;
-        const glm::dvec3 size = glm::max(bounds_.size(), glm::dvec3(1e-9 * bounds_.diagonal()));
-        cell_ = std::cbrt(size.x * size.y * size.z / static_cast<double>(points_.size()));
-        cell_ = std::max({cell_, bounds_.diagonal() * 1e-5, 1e-300});
-        cells_.clear();
+        built_for_ = std::max<std::size_t>(points_.size(), 8);
+        const double longest =
+            std::max({bounds_.size().x, bounds_.size().y, bounds_.size().z, 1e-300});
+        // Flat and long clouds use their cells as well as round ones.
+        cell_ = longest / static_cast<double>(built_for_);
+        const auto along = [&](double length) { return std::floor(length / cell_) + 1.0; };
+        const auto cells = [&] {
+            return along(bounds_.size().x) * along(bounds_.size().y) * along(bounds_.size().z);
+        };
+        while (cells() > static_cast<double>(built_for_))
+            cell_ *= 1.25;
+        size_ =
+            glm::ivec3(along(bounds_.size().x), along(bounds_.size().y), along(bounds_.size().z));
+        heads_.assign(static_cast<std::size_t>(cells()), kNone);
         for (std::uint32_t id = 0; id < points_.size(); ++id)
             insert(id);
     }
 
     Bounds bounds_;
-    glm::dvec3 origin_{0.0};
     double cell_ = 1.0;
-    std::size_t built_for_ = 1;
+    glm::ivec3 size_{1};
+    std::size_t built_for_ = 8;
     std::vector<glm::dvec3> points_;
-    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+    std::vector<std::uint32_t> heads_; // [cells] first point
+    std::vector<std::uint32_t> next_;  // [points] in the same cell
 };
 
 } // namespace
@@ -273,7 +286,10 @@ RemovalSequence planRemoval(const Scene& scene,
     removal.area_left.push_back(0.0);
     auto instances = std::make_shared<std::vector<std::uint32_t>>();
     std::vector<double> distance;
-    GrowingGrid grid;
+    Bounds spots;
+    for (const Member& member : members)
+        spots.add(member.at);
+    GrowingGrid grid(spots);
     for (const std::uint32_t index : order) {
         const Member& member = members[index];
         instances->push_back(member.instance);
