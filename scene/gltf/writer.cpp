@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <compare>
 #include <tbb/parallel_for.h>
 
 namespace lodestone {
@@ -45,8 +44,6 @@ std::uint64_t stableHash(std::string_view text) {
 struct CloseCall {
     double distance_bytes = 0.0; // from the estimated break-even
     std::uint32_t submesh = 0;
-
-    auto operator<=>(const CloseCall&) const = default;
 };
 
 struct Candidate {
@@ -98,7 +95,7 @@ Layout chooseLayout(const ExportPlan& plan, const LodShape& shape) {
     if (plan.options.instancing != Instancing::Auto)
         return std::move(best.layout);
     best.bytes = exportedBytes(plan, best.layout);
-    std::ranges::sort(close_calls);
+    std::ranges::stable_sort(close_calls, {}, &CloseCall::distance_bytes);
     close_calls.resize(std::min(close_calls.size(), kMostCloseCalls));
     for (const CloseCall& call : close_calls) {
         std::vector<bool> other = best.folds;
