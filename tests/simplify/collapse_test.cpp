@@ -196,8 +196,8 @@ struct AssetClass {
     GeometryPtr geometry;
 };
 
-void PrintTo(const AssetClass& asset, std::ostream* out) {
-    *out << asset.name;
+std::ostream& operator<<(std::ostream& out, const AssetClass& asset) {
+    return out << asset.name;
 }
 
 class CollapseOfAnyMesh : public ::testing::TestWithParam<AssetClass> {};

@@ -128,6 +128,7 @@ TEST(Quadric, KeepsTinyErrorsOfFinelyMeshedSurfaces) {
     for (int round = 0; round < 100; ++round) {
         const glm::dvec3 vertex = maker.vector(1.0);
         std::vector<Plane> planes;
+        planes.reserve(6);
         for (int i = 0; i < 6; ++i)
             planes.push_back(
                 {glm::normalize(glm::dvec3(0.0, 0.0, 1.0) + maker.vector(1e-3)), vertex, 1e-6});
@@ -175,6 +176,7 @@ TEST(Quadric, NeverPlacesFartherFromTheMiddleThanTheEdgeIsLong) {
         const glm::dvec3 a = maker.vector(1.0);
         const glm::dvec3 b = a + maker.vector(0.1);
         std::vector<Plane> planes; // nearly parallel: their meeting point is far away
+        planes.reserve(5);
         for (int i = 0; i < 5; ++i)
             planes.push_back({glm::normalize(glm::dvec3(0.0, 0.0, 1.0) + maker.vector(0.02)),
                               a + maker.vector(0.1),

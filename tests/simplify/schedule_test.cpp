@@ -130,7 +130,7 @@ TEST(Schedule, ResolvesToTheFirstPositionAtOrBelowATarget) {
     const ByteModel bytes(scene, {});
     const LodSourcePtr source = prepared(scene);
     const auto full = static_cast<double>(source->trianglesAt(0));
-    const auto bytesAt = [&](std::uint64_t position) {
+    const auto bytes_at = [&](std::uint64_t position) {
         return static_cast<double>(bytes.bytes(source->shapeAt(position)));
     };
     for (const double ratio : {1.0, 0.999, 0.75, 0.5, 0.2, 0.1}) {
@@ -142,11 +142,11 @@ TEST(Schedule, ResolvesToTheFirstPositionAtOrBelowATarget) {
             EXPECT_GT(static_cast<double>(source->trianglesAt(by_ratio.position - 1)),
                       ratio * full);
         }
-        const double size = ratio * bytesAt(0);
+        const double size = ratio * bytes_at(0);
         const Resolved by_size = source->resolve({Target::Kind::Bytes, size}, bytes);
         if (by_size.met && by_size.position > 0) {
-            EXPECT_LE(bytesAt(by_size.position), size);
-            EXPECT_GT(bytesAt(by_size.position - 1), size);
+            EXPECT_LE(bytes_at(by_size.position), size);
+            EXPECT_GT(bytes_at(by_size.position - 1), size);
         }
     }
 }
