@@ -98,6 +98,12 @@ void splitPull(const glm::dvec3& edge,
         out.push_back({c * v - s * u, mean - half_gap});
 }
 
+std::size_t slotOf(int face, int x, int y) {
+    constexpr std::size_t kSide{kTableSide};
+    return (static_cast<std::size_t>(face) * kSide + static_cast<std::size_t>(y)) * kSide +
+           static_cast<std::size_t>(x);
+}
+
 TableCell cellOf(const glm::dvec3& n) {
     int axis = 0;
     for (int i = 1; i < 3; ++i)
@@ -184,8 +190,7 @@ InstanceWeights::Directed InstanceWeights::lookUp(const glm::dvec3& normal) cons
     Directed sum;
     for (int dy = 0; dy < 2; ++dy)
         for (int dx = 0; dx < 2; ++dx) {
-            const int row = cell.face * kTableSide + y0 + dy;
-            const Directed& at = table_[static_cast<std::size_t>(row * kTableSide + x0 + dx)];
+            const Directed& at = table_[slotOf(cell.face, x0 + dx, y0 + dy)];
             const double share = (dx ? x - x0 : 1.0 - (x - x0)) * (dy ? y - y0 : 1.0 - (y - y0));
             sum.face += at.face * share;
             sum.pull += at.pull * share;
@@ -234,7 +239,7 @@ void InstanceWeights::border(const glm::dvec3& edge,
 }
 
 void InstanceWeights::tabulate() {
-    table_.resize(static_cast<std::size_t>(3 * kTableSide * kTableSide));
+    table_.resize(slotOf(3, 0, 0));
     for (int face = 0; face < 3; ++face)
         for (int y = 0; y < kTableSide; ++y)
             for (int x = 0; x < kTableSide; ++x) {
@@ -242,8 +247,7 @@ void InstanceWeights::tabulate() {
                 n[face] = 1.0;
                 n[(face + 1) % 3] = 2.0 * x / (kTableSide - 1) - 1.0;
                 n[(face + 2) % 3] = 2.0 * y / (kTableSide - 1) - 1.0;
-                const int row = face * kTableSide + y;
-                table_[static_cast<std::size_t>(row * kTableSide + x)] = exact(glm::normalize(n));
+                table_[slotOf(face, x, y)] = exact(glm::normalize(n));
             }
 }
 
