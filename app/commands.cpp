@@ -135,6 +135,39 @@ void run(Document& document, const RemoveLane& command) {
     });
 }
 
+void run(Document& document, const SetLanes& command) {
+    std::vector<const Algorithm*> wanted;
+    for (const std::string& id : command.algorithms) {
+        const auto algorithm = algorithmOrWarn(document, id);
+        if (!algorithm)
+            return;
+        wanted.push_back(*algorithm);
+    }
+    if (wanted.empty())
+        return;
+    edit(document, "Choose lanes", 0, [&] {
+        std::vector<Lane> before = std::exchange(document.lanes, {});
+        for (const Algorithm* const algorithm : wanted) {
+            const auto same = std::ranges::find_if(before, [&](const Lane& lane) {
+                return lane.id != kNoLane && lane.settings.algorithm == algorithm;
+            });
+            if (same != before.end()) {
+                document.lanes.push_back(std::move(*same));
+                same->id = kNoLane;
+                continue;
+            }
+            Lane lane;
+            lane.id = document.next_lane_id++;
+            lane.settings.algorithm = algorithm;
+            lane.settings.target = document.master;
+            lane.settings.colour = laneColour(algorithm, 0);
+            document.lanes.push_back(std::move(lane));
+        }
+        if (!document.findLane(document.active_lane))
+            document.active_lane = document.lanes.front().id;
+    });
+}
+
 void run(Document& document, const MoveLane& command) {
     Lane* lane = laneOrWarn(document, command.lane);
     if (!lane)

@@ -47,6 +47,10 @@ struct RemoveLane {
     LaneId lane = kNoLane;
 };
 
+struct SetLanes { // exactly these, in this order; lanes that are there already stay as they are
+    std::vector<std::string> algorithms; // ids; empty text: Original
+};
+
 struct MoveLane {
     LaneId lane = kNoLane;
     std::uint32_t index = 0; // its place afterwards
@@ -146,6 +150,7 @@ using Command = std::variant<OpenScene,
                              AddLane,
                              DuplicateLane,
                              RemoveLane,
+                             SetLanes,
                              MoveLane,
                              SetLaneAlgorithm,
                              SetLaneParameter,

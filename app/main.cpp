@@ -17,6 +17,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
+#include <map>
 #include <numbers>
 #include <unistd.h>
 
@@ -174,6 +175,7 @@ OrbitCamera orbitCamera(const CameraState& state, const Bounds& bounds, double a
     camera.distance = state.distance;
     camera.azimuth_rad = state.azimuth_deg * kRadiansPerDegree;
     camera.elevation_rad = state.elevation_deg * kRadiansPerDegree;
+    camera.orthographic = state.orthographic;
     camera.yfov_rad = 2.0 * std::atan(std::tan(kVerticalFovRad * 0.5) / std::min(1.0, aspect));
     if (!bounds.empty) {
         camera.scene_center = bounds.center();
@@ -288,8 +290,9 @@ private:
         const double wake_s = std::min(window_.wakeIn(), 3600.0);
         wake_at_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                       std::chrono::duration<double>(wake_s));
-        if (rests_at_ > Clock::now() || shows_draft_)
-            wake_at_ = std::min(wake_at_, rests_at_);
+        for (const auto& [lane, rests_at] : rests_at_)
+            if (shows_draft_ && rests_at > begun_)
+                wake_at_ = std::min(wake_at_, rests_at);
         if (window_.takeFullScreenToggle())
             host_.toggleFullScreen();
         const Document& document = session_.document();
@@ -299,16 +302,18 @@ private:
     // Returns whether any picture is another than before.
     bool drawPictures() {
         const Document& document = session_.document();
-        const bool moving = noteMotion(document);
+        noteMotion(document);
+        const Clock::time_point now = Clock::now();
         std::vector<ViewSet::Wanted> wanted;
         for (const ui::ViewRequest& view : window_.views()) {
             const Lane* const lane = document.findLane(view.lane);
             if (lane)
-                wanted.push_back({view.lane,
-                                  lane->status.scene,
-                                  lane->status.lod,
-                                  moving ? drafts_.draftOf(document, *lane) : nullptr,
-                                  {view.width_px, view.height_px}});
+                wanted.push_back(
+                    {view.lane,
+                     lane->status.scene,
+                     lane->status.lod,
+                     now < rests_at_[lane->id] ? drafts_.draftOf(document, *lane) : nullptr,
+                     {view.width_px, view.height_px}});
         }
         const auto drawn =
             pictures_.draw(wanted,
@@ -329,19 +334,21 @@ private:
         return ViewSize{view.width_px, view.height_px}.aspect();
     }
 
-    // Whether camera, display or a lane's LOD has changed within the last moment.
-    bool noteMotion(const Document& document) {
-        std::uint64_t revisions = document.scene_revision;
-        for (const Lane& lane : document.lanes)
-            revisions += lane.status.lod_revision;
-        if (!(document.camera == seen_camera_) || !(document.view == seen_view_) ||
-            revisions != seen_revisions_) {
-            seen_camera_ = document.camera;
-            seen_view_ = document.view;
-            seen_revisions_ = revisions;
-            rests_at_ = Clock::now() + kRest;
+    // Lanes whose picture becomes another one rest a moment later: all of them when the camera or
+    // the display changes, else those whose LOD does.
+    void noteMotion(const Document& document) {
+        const bool all = !(document.camera == seen_camera_) || !(document.view == seen_view_);
+        seen_camera_ = document.camera;
+        seen_view_ = document.view;
+        for (const Lane& lane : document.lanes) {
+            std::uint64_t& seen = seen_lods_[lane.id];
+            if (all || seen != lane.status.lod_revision)
+                rests_at_[lane.id] = Clock::now() + kRest;
+            seen = lane.status.lod_revision;
         }
-        return Clock::now() < rests_at_;
+        const auto gone = [&](const auto& entry) { return !document.findLane(entry.first); };
+        std::erase_if(seen_lods_, gone);
+        std::erase_if(rests_at_, gone);
     }
 
     // The camera turned as it is, near enough that the part, or the whole scene if it is empty,
@@ -401,10 +408,10 @@ private:
     FramePoints frame_points_; // of framed_scene_
     CameraState seen_camera_;
     DisplayOptions seen_view_;
-    std::uint64_t seen_revisions_ = 0;
-    Clock::time_point begun_ = Clock::now(); // this frame
+    std::map<LaneId, std::uint64_t> seen_lods_;    // lod_revision
+    std::map<LaneId, Clock::time_point> rests_at_; // drafts until then
+    Clock::time_point begun_ = Clock::now();       // this frame
     Clock::time_point wake_at_ = Clock::now();
-    Clock::time_point rests_at_ = Clock::now(); // nothing has moved by then: drafts go
     int settle_ = kSettlePasses;
     bool stale_ = false;
     bool shows_draft_ = false;

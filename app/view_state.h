@@ -15,6 +15,7 @@ struct CameraState {
     double elevation_deg = 20.0;
     double distance = 0.0; // world units from target; 0: not framed yet
     glm::dvec3 target{0.0};
+    bool orthographic = false; // height shown = the perspective's at the target
 
     friend bool operator==(const CameraState&, const CameraState&) = default;
 };

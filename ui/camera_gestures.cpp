@@ -48,6 +48,21 @@ CameraState lookFrom(CameraState camera, AxisSide side) {
     return camera;
 }
 
+std::optional<DisplayOptions> lightGesture(const DisplayOptions& view) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const bool moves = io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f;
+    if (!moves || !ImGui::IsItemActive() || !ImGui::IsMouseDown(ImGuiMouseButton_Left))
+        return std::nullopt;
+    DisplayOptions lit = view;
+    lit.light_azimuth_deg =
+        std::remainder(view.light_azimuth_deg - static_cast<double>(io.MouseDelta.x), 360.0);
+    lit.light_elevation_deg =
+        std::clamp(view.light_elevation_deg - static_cast<double>(io.MouseDelta.y),
+                   -kSteepest_deg,
+                   kSteepest_deg);
+    return lit;
+}
+
 std::optional<CameraState>
 cameraGesture(const CameraState& camera, float shorter_side, double fov_rad) {
     const ImGuiIO& io = ImGui::GetIO();

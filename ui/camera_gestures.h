@@ -11,6 +11,9 @@ namespace lodestone::ui {
 std::optional<CameraState>
 cameraGesture(const CameraState& camera, float shorter_side, double fov_rad);
 
+// What a left drag over the last ImGui item does to the light instead. nullopt: nothing.
+std::optional<DisplayOptions> lightGesture(const DisplayOptions& view);
+
 enum class AxisSide : std::uint8_t { Front, Right, Top };
 
 CameraState lookFrom(CameraState camera, AxisSide side);

@@ -44,7 +44,7 @@ std::array<std::string, kColumns.size()> cellsOf(const Lane& lane) {
         cells[2] = formatBytes(status.numbers.predicted_bytes);
     }
     if (status.frame_ms > 0.0) {
-        cells[3] = std::to_string(std::lround(framesPerSecond(lane)));
+        cells[3] = formatRate(framesPerSecond(lane));
         char time[16] = "";
         std::snprintf(time, sizeof time, "%.1f", status.frame_ms);
         cells[4] = time;

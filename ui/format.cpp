@@ -28,8 +28,12 @@ std::string threeDigits(double value) {
 std::string formatCount(std::uint64_t count) {
     std::string text = std::to_string(count);
     for (std::ptrdiff_t at = static_cast<std::ptrdiff_t>(text.size()) - 3; at > 0; at -= 3)
-        text.insert(static_cast<std::size_t>(at), 1, ',');
+        text.insert(static_cast<std::size_t>(at), "\u2009");
     return text;
+}
+
+std::string formatRate(double frames_per_second) {
+    return decimals(frames_per_second, frames_per_second < 9.95 ? 1 : 0);
 }
 
 std::string formatShortCount(std::uint64_t count) {

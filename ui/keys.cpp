@@ -3,6 +3,8 @@
 #include "ui/shortcuts.h"
 
 #include <array>
+#include <cmath>
+#include <numbers>
 
 namespace lodestone::ui {
 
@@ -17,15 +19,19 @@ constexpr int kKeyF11 = 300;
 constexpr int kKeypad0 = 320;
 
 constexpr double kScaleStep = 1.1;
+constexpr DragKey kAnimationDrag = 0x414e494d45ull; // a whole animation is one undo step
 constexpr DragKey kStepDrag = 0x5354455053ull; // collapsing while a key is held is one undo step
 
-constexpr std::array<Shortcut, 26> kShortcuts = {{
+constexpr std::array<Shortcut, 29> kShortcuts = {{
     {"Left drag", "orbit (also Alt+left, middle)"},
     {"Right drag", "pan (also Shift+middle)"},
     {"Wheel", "zoom"},
     {"F", "frame the selection"},
     {"Home", "frame everything"},
     {"Numpad 1 3 7", "from the front, right, above"},
+    {"Numpad 5", "perspective or parallel"},
+    {"1 / 0", "left drag moves the light / the camera"},
+    {"A", "animate the active lane down and up"},
     {"Tab", "hide or show the panels"},
     {"N", "normals"},
     {"L", "wireframe"},
@@ -82,6 +88,11 @@ void cameraKeys(const Ui& ui, const CameraState& camera) {
         ui.push(SetCamera{lookFrom(camera, AxisSide::Right)});
     if (pressed(kKeypad0 + 7))
         ui.push(SetCamera{lookFrom(camera, AxisSide::Top)});
+    if (pressed(kKeypad0 + 5)) {
+        CameraState other = camera;
+        other.orthographic = !camera.orthographic;
+        ui.push(SetCamera{other});
+    }
     if (held('S'))
         ui.push(SetCamera{zoomed(camera, shift ? kScaleStep : 1.0 / kScaleStep)});
     if (held('Z'))
@@ -98,6 +109,10 @@ void viewKeys(const Ui& ui, DisplayOptions view, WindowState& state) {
         view.wireframe = !view.wireframe;
         ui.push(SetView{view});
     }
+    if (pressed('1'))
+        state.drag_moves_light = true;
+    if (pressed('0'))
+        state.drag_moves_light = false;
     if (pressed(kKeyTab))
         state.panels_hidden = !state.panels_hidden;
 }
@@ -112,6 +127,28 @@ void stepKeys(const Ui& ui, LaneId lane) {
         ui.push(StepCollapses{lane, -2, kStepDrag});
     if (ImGui::IsKeyReleased('C') || ImGui::IsKeyReleased('B') || ImGui::IsKeyReleased('V'))
         ui.push(EndDrag{});
+}
+
+// A: down and up through the schedule of the active lane, once in kAnimation_s, until A again.
+void animationKey(const Ui& ui, const Document& document, WindowState& state) {
+    constexpr double kAnimation_s = 10.0;
+    constexpr double kCoarsest_log10 = -2.5; // 0.3 %
+    Animation& animation = state.animation;
+    const bool ends = animation.lane != kNoLane && pressed('A');
+    if (ends) {
+        ui.push(EndDrag{});
+        animation = {};
+    } else if (pressed('A')) {
+        animation = {document.active_lane, ImGui::GetTime()};
+    }
+    const Lane* const lane = document.findLane(animation.lane);
+    if (!lane || !lane->settings.algorithm)
+        return;
+    const double turns = (ImGui::GetTime() - animation.begin_s) / kAnimation_s;
+    const double depth = 0.5 - 0.5 * std::cos(turns * 2.0 * std::numbers::pi);
+    const double ratio = std::pow(10.0, kCoarsest_log10 * depth);
+    ui.push(SetLaneTarget{lane->id, {Target::Kind::Ratio, ratio}, kAnimationDrag});
+    state.animate();
 }
 
 void escapeKey(const Ui& ui, const Document& document, WindowState& state) {
@@ -157,6 +194,7 @@ void handleKeys(const Ui& ui, const PanelInput& input, WindowState& state) {
     cameraKeys(ui, document.camera);
     viewKeys(ui, document.view, state);
     stepKeys(ui, document.active_lane);
+    animationKey(ui, document, state);
 }
 
 } // namespace lodestone::ui

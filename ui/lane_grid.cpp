@@ -139,7 +139,7 @@ FooterWords footerWords(const Lane& lane) {
     words.size = formatBytes(numbers.predicted_bytes);
     if (lane.status.frame_ms > 0.0) {
         words.time = formatMilliseconds(lane.status.frame_ms);
-        words.rate = std::to_string(std::lround(framesPerSecond(lane)));
+        words.rate = formatRate(framesPerSecond(lane));
     }
     return words;
 }
@@ -275,8 +275,12 @@ void drawPicture(
     ui.record("picture");
     if (ImGui::IsItemActivated())
         ui.push(SetActiveLane{lane.id});
-    if (const auto camera = cameraGesture(
-            input.document.camera, std::min(area.size.x, area.size.y), kVerticalFovRad))
+    const bool lights = state.drag_moves_light && ImGui::IsMouseDown(ImGuiMouseButton_Left);
+    if (const auto lit = lights ? lightGesture(input.document.view) : std::nullopt)
+        ui.push(SetView{*lit});
+    else if (const auto camera = cameraGesture(
+                 input.document.camera, std::min(area.size.x, area.size.y), kVerticalFovRad);
+             camera && !lights)
         ui.push(SetCamera{*camera});
     drawState(ui, state, lane, picture && picture->draft, area);
     state.views.push_back({lane.id,

@@ -80,6 +80,11 @@ void viewMenu(const Ui& ui, const Document& document, WindowState& state) {
         ui.push(SetCamera{lookFrom(document.camera, AxisSide::Right)});
     if (menuItem(ui, "From above", "Numpad 7"))
         ui.push(SetCamera{lookFrom(document.camera, AxisSide::Top)});
+    if (menuItem(ui, "Parallel projection", "Numpad 5", document.camera.orthographic)) {
+        CameraState other = document.camera;
+        other.orthographic = !other.orthographic;
+        ui.push(SetCamera{other});
+    }
     ImGui::Separator();
     if (menuItem(ui, "Panels", "Tab", !state.panels_hidden))
         state.panels_hidden = !state.panels_hidden;
@@ -89,6 +94,16 @@ void viewMenu(const Ui& ui, const Document& document, WindowState& state) {
 
 void lanesMenu(const Ui& ui, const Document& document) {
     const LaneId active = document.active_lane;
+    const bool open = document.scene != nullptr;
+    if (menuItem(ui, "IAS vs Quadric", nullptr, false, open))
+        ui.push(SetLanes{{"", "ias", "quadric"}});
+    if (menuItem(ui, "All algorithms", nullptr, false, open)) {
+        SetLanes all{{""}};
+        for (const Algorithm& algorithm : algorithms())
+            all.algorithms.emplace_back(algorithm.id);
+        ui.push(all);
+    }
+    ImGui::Separator();
     if (ImGui::BeginMenu("Add lane", document.scene != nullptr)) {
         if (menuItem(ui, "Original", nullptr))
             ui.push(AddLane{});

@@ -26,7 +26,7 @@ struct Layout {
 Layout layoutOf(const Theme& theme, const ImVec2& window_size, bool panels_hidden);
 
 void drawMenuBar(Ui ui, const PanelInput& input, WindowState& state);
-void drawScenePanel(Ui ui, const PanelInput& input, const Area& area);
+void drawScenePanel(Ui ui, const PanelInput& input, WindowState& state, const Area& area);
 void drawMasterStrip(Ui ui, const PanelInput& input, WindowState& state, const Area& area);
 void drawLaneGrid(Ui ui, const PanelInput& input, WindowState& state, const Area& area);
 void drawInspector(Ui ui, const PanelInput& input, WindowState& state, const Area& area);

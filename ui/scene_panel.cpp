@@ -10,7 +10,7 @@ namespace lodestone::ui {
 
 namespace {
 
-constexpr float kRowHeight = 24.0f;
+constexpr float kRowHeight = 22.0f;
 
 std::uint64_t trianglesOf(const LodSubmesh& submesh) {
     std::uint64_t count = 0;
@@ -120,7 +120,25 @@ void drawRow(const Ui& ui,
     ImGui::SetCursorScreenPos({begin.x, end.y});
 }
 
-void drawList(const Ui& ui, const PanelInput& input, float width) {
+// Heaviest first: triangles of all instances; equals in the order of the file.
+const std::vector<std::uint32_t>& orderOf(const ScenePtr& scene, SubmeshOrder& order) {
+    if (order.scene == scene)
+        return order.submeshes;
+    const std::vector<InstanceRange> ranges = instanceRanges(*scene);
+    std::vector<std::uint64_t> weights(ranges.size());
+    order.scene = scene;
+    order.submeshes.resize(ranges.size());
+    for (std::uint32_t at = 0; at < ranges.size(); ++at) {
+        weights[at] = triangleCount(scene->submeshes[at]) * ranges[at].size();
+        order.submeshes[at] = at;
+    }
+    std::ranges::stable_sort(
+        order.submeshes, [&](std::uint32_t a, std::uint32_t b) { return weights[a] > weights[b]; });
+    return order.submeshes;
+}
+
+void drawList(const Ui& ui, const PanelInput& input, SubmeshOrder& order, float width) {
+    const std::vector<std::uint32_t>& submeshes = orderOf(input.document.scene, order);
     const std::vector<InstanceRange> ranges = instanceRanges(*input.document.scene);
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
     ImGuiListClipper clipper;
@@ -129,8 +147,8 @@ void drawList(const Ui& ui, const PanelInput& input, float width) {
         for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row)
             drawRow(ui,
                     input,
-                    static_cast<std::uint32_t>(row),
-                    ranges[static_cast<std::size_t>(row)].size(),
+                    submeshes[static_cast<std::size_t>(row)],
+                    ranges[submeshes[static_cast<std::size_t>(row)]].size(),
                     width);
     ImGui::PopStyleVar();
 }
@@ -185,7 +203,9 @@ void drawSelection(const Ui& ui, const PanelInput& input) {
     const SelectionSummary summary = summarise(document);
     sectionTitle(ui, "Selection");
     if (summary.submeshes.empty()) {
-        ImGui::TextDisabled("Click a submesh to weigh it.");
+        ImGui::PushStyleColor(ImGuiCol_Text, color::kSecondary);
+        ImGui::TextWrapped("Click a submesh to weigh it.");
+        ImGui::PopStyleColor();
         return;
     }
     const std::string name = summary.submeshes.size() == 1
@@ -204,7 +224,7 @@ void drawSelection(const Ui& ui, const PanelInput& input) {
 
 } // namespace
 
-void drawScenePanel(Ui ui, const PanelInput& input, const Area& area) {
+void drawScenePanel(Ui ui, const PanelInput& input, WindowState& state, const Area& area) {
     ui.panel = "Scene";
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
     beginPanel("Scene", area.position, area.size, PanelScroll::None);
@@ -216,14 +236,14 @@ void drawScenePanel(Ui ui, const PanelInput& input, const Area& area) {
                                       (count == 1 ? " submesh" : " submeshes")
                                 : std::string("Scene"));
     if (document.scene) {
-        const float selection_height = ui.px(112);
+        const float selection_height = ui.px(document.selection.empty() ? 72.0f : 112.0f);
         const float list_top = area.position.y + ui.px(34);
         const float list_height =
             std::min(static_cast<float>(count) * ui.px(kRowHeight),
                      std::max(ui.px(kRowHeight), area.end().y - list_top - selection_height));
         ImGui::SetCursorScreenPos({area.position.x, list_top});
         ImGui::BeginChild("list", {area.size.x, list_height});
-        drawList(ui, input, area.size.x - ui.theme.hairline());
+        drawList(ui, input, state.submesh_order, area.size.x - ui.theme.hairline());
         fadeWhereMore(ui, color::kPanel);
         ImGui::EndChild();
         const ImVec2 below{area.position.x + ui.px(12), list_top + list_height + ui.px(16)};

@@ -41,7 +41,7 @@ void Window::draw(const WindowFacts& facts,
     drawMasterStrip(ui, input, state_, layout.master);
     drawLaneGrid(ui, input, state_, layout.grid);
     if (!state_.panels_hidden) {
-        drawScenePanel(ui, input, layout.scene);
+        drawScenePanel(ui, input, state_, layout.scene);
         drawInspector(ui, input, state_, layout.inspector);
         drawComparePanel(ui, input, state_, layout.compare);
     }

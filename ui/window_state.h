@@ -57,12 +57,27 @@ struct ExportForm {
     std::string problem; // one line; empty: none
 };
 
+// A lane that is walked down and up its schedule.
+struct Animation {
+    LaneId lane = kNoLane; // kNoLane: off
+    double begin_s = 0.0;
+};
+
+// The scene panel's list: heaviest submeshes first.
+struct SubmeshOrder {
+    ScenePtr scene;
+    std::vector<std::uint32_t> submeshes;
+};
+
 struct WindowState {
     Dialog dialog = Dialog::None;
     bool dialog_opens = false; // in the next frame
     bool panels_hidden = false;
     bool welcome = false;
-    bool quit = false;                // answered: really
+    bool quit = false;             // answered: really
+    bool drag_moves_light = false; // a left drag in a view
+    Animation animation;
+    SubmeshOrder submesh_order;
     bool full_screen_toggled = false; // wanted; whoever owns the window clears it
     int cell_count = 0;               // views in the grid; 0: one for each lane
     FileBrowser browser;
