@@ -114,23 +114,25 @@ bool ComponentMesh::tryCollapse(std::uint32_t a,
     ++rings_[a].version;
     ++rings_[b].version;
     mergeFaces(a, b);
-    if (face_wedges_.empty()) {
-        mergeTrivialWedges(a, b);
-        return true;
-    }
     const float length2 = dot(half, half);
     const float along = length2 > 0.0f ? dot(placement.at, half) / length2 : 0.0f;
-    mergeWedges(a, b, std::clamp(0.5f + 0.5f * along, 0.0f, 1.0f));
+    const float t = std::clamp(0.5f + 0.5f * along, 0.0f, 1.0f);
+    if (face_wedges_.empty())
+        mergeSingleWedges(a, b, t);
+    else
+        mergeWedges(a, b, t);
     return true;
 }
 
 // Every vertex is its own wedge.
-void ComponentMesh::mergeTrivialWedges(std::uint32_t a, std::uint32_t b) {
-    killWedge(vertex_ids_[b], vertex_ids_[a]);
+void ComponentMesh::mergeSingleWedges(std::uint32_t a, std::uint32_t b, float t) {
+    const std::uint32_t into = vertex_ids_[a];
+    blendValues(into, vertex_ids_[b], t);
+    killWedge(vertex_ids_[b], into);
     if (alive(a))
-        addVersion(vertex_ids_[a], points_[a].position);
+        addVersion(into, points_[a].position);
     else
-        killWedge(vertex_ids_[a], kNone);
+        killWedge(into, kNone);
     for (const std::uint32_t f : dying_)
         for (const std::uint32_t v : faces_[f])
             if (!alive(v) && log_.wedge_death[vertex_ids_[v]] == kNone)
@@ -189,6 +191,10 @@ void ComponentMesh::releaseWedge(std::uint32_t wedge) {
 }
 
 void ComponentMesh::blendValues(std::uint32_t into, std::uint32_t from, float t) {
+    if (attributes_.carries && t > 0.5f)
+        wedge_carrier_[into] = wedge_carrier_[from];
+    if (attributes_.size == 0)
+        return;
     float* to = values_.data() + std::size_t{into} * attributes_.size;
     const float* other = values_.data() + std::size_t{from} * attributes_.size;
     for (const WedgeAttributes::Slot& slot : attributes_.slots[wedge_primitive_[into]]) {
@@ -207,8 +213,6 @@ void ComponentMesh::blendValues(std::uint32_t into, std::uint32_t from, float t)
         if (slot.tangent && slot.components == 4 && t > 0.5f)
             to[slot.offset + 3] = other[slot.offset + 3];
     }
-    if (t > 0.5f)
-        wedge_carrier_[into] = wedge_carrier_[from];
 }
 
 // Wedges that meet in a face on the edge become one; the others of b move to a as they are, so that
@@ -276,8 +280,6 @@ void ComponentMesh::addVersion(std::uint32_t wedge, Float3 position) {
     log_.version_wedge.push_back(wedge);
     log_.version_step.push_back(step());
     log_.version_position.emplace_back(origin_ + p * scale_);
-    if (face_wedges_.empty())
-        return;
     if (attributes_.carries)
         log_.version_carrier.push_back(wedge_carrier_[wedge]);
     const auto from =

@@ -129,33 +129,39 @@ void ComponentMesh::buildWedges() {
     const std::size_t wedges = log_.wedges.size();
     log_.wedge_death.assign(wedges, kNone);
     log_.wedge_parent.assign(wedges, kNone);
-    const bool trivial = wedges == points_.size() && attributes_.size == 0 && !attributes_.carries;
-    wedge_refs_.clear();
     vertex_ids_.clear();
-    if (trivial) { // then wedge and vertex ids are equal: both were numbered by first use
+    wedge_refs_.clear();
+    gatherValues();
+    if (wedges == points_.size()) { // one each, and numbered alike: both by first use
         face_wedges_.clear();
         vertex_ids_.resize(wedges);
         std::iota(vertex_ids_.begin(), vertex_ids_.end(), 0u);
         return;
     }
     wedge_refs_.assign(wedges, 0);
-    wedge_carrier_.resize(wedges);
-    wedge_primitive_.resize(wedges);
-    for (std::uint32_t f = 0; f < faces_.size(); ++f) {
-        const auto primitive = static_cast<std::uint32_t>(complex_.primitiveOfFace(log_.faces[f]));
-        for (const std::uint32_t w : face_wedges_[f]) {
-            ++wedge_refs_[w];
-            wedge_primitive_[w] = primitive;
+    for (const Corners& corners : face_wedges_)
+        for (const std::uint32_t wedge : corners)
+            ++wedge_refs_[wedge];
+}
+
+// Attributes of the component's wedges, and which primitive says what they are.
+void ComponentMesh::gatherValues() {
+    const std::size_t wedges = log_.wedges.size();
+    wedge_primitive_.assign(wedges, 0);
+    if (complex_.face_begin.size() > 2)
+        for (std::uint32_t f = 0; f < faces_.size(); ++f) {
+            const std::size_t primitive = complex_.primitiveOfFace(log_.faces[f]);
+            for (const std::uint32_t wedge : face_wedges_[f])
+                wedge_primitive_[wedge] = static_cast<std::uint32_t>(primitive);
         }
-    }
+    wedge_carrier_.resize(attributes_.carries ? wedges : 0);
+    std::iota(wedge_carrier_.begin(), wedge_carrier_.end(), 0u);
     values_.resize(wedges * attributes_.size);
-    for (std::uint32_t w = 0; w < wedges; ++w) {
-        wedge_carrier_[w] = w;
+    for (std::size_t w = 0; w < wedges; ++w) {
         const std::size_t from = std::size_t{log_.wedges[w]} * attributes_.size;
         std::copy_n(attributes_.values.begin() + static_cast<std::ptrdiff_t>(from),
                     attributes_.size,
-                    values_.begin() +
-                        static_cast<std::ptrdiff_t>(std::size_t{w} * attributes_.size));
+                    values_.begin() + static_cast<std::ptrdiff_t>(w * attributes_.size));
     }
 }
 

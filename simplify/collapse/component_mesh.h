@@ -167,6 +167,7 @@ private:
     void buildReferences();
     void fillRings();
     void buildWedges();
+    void gatherValues();
     void buildQuadrics();
     void addFaceQuadric(std::uint32_t face);
     bool seamBetween(std::uint32_t face_a, std::uint32_t face_b, std::uint32_t vertex) const;
@@ -187,7 +188,7 @@ private:
     void mergeFaces(std::uint32_t a, std::uint32_t b);
     void killFace(std::uint32_t face);
     void dropReference(std::uint32_t v, std::uint32_t face);
-    void mergeTrivialWedges(std::uint32_t a, std::uint32_t b);
+    void mergeSingleWedges(std::uint32_t a, std::uint32_t b, float t);
     void mergeWedges(std::uint32_t a, std::uint32_t b, float t);
     void killWedge(std::uint32_t wedge, std::uint32_t parent);
     void releaseWedge(std::uint32_t wedge);
@@ -211,16 +212,16 @@ private:
 
     glm::dvec3 origin_{0.0};
     double scale_ = 1.0;
-    std::vector<Point> points_;             // [vertices]
-    std::vector<Metric> metrics_;           // [vertices]
-    std::vector<Ring> rings_;               // [vertices]
-    std::vector<Corners> faces_;            // [faces] local vertices; dead: face_death set
-    std::vector<Corners> face_wedges_;      // [faces] local wedges; empty while wedges are trivial
-    std::vector<std::uint32_t> face_ids_;   // [faces] in the log
-    std::vector<std::uint32_t> vertex_ids_; // [vertices] in the log, while wedges are trivial
-    std::vector<std::uint32_t> moved_to_;   // scratch of compact()
-    std::vector<std::uint32_t> refs_;       // faces of each vertex
-    std::vector<std::uint32_t> wedge_refs_; // [wedges] live corners; empty while trivial
+    std::vector<Point> points_;                  // [vertices]
+    std::vector<Metric> metrics_;                // [vertices]
+    std::vector<Ring> rings_;                    // [vertices]
+    std::vector<Corners> faces_;                 // [faces] local vertices; dead: face_death set
+    std::vector<Corners> face_wedges_;           // [faces] local wedges; empty: one a vertex
+    std::vector<std::uint32_t> face_ids_;        // [faces] in the log
+    std::vector<std::uint32_t> vertex_ids_;      // [vertices] in the log, where it is its own wedge
+    std::vector<std::uint32_t> moved_to_;        // scratch of compact()
+    std::vector<std::uint32_t> refs_;            // faces of each vertex
+    std::vector<std::uint32_t> wedge_refs_;      // [wedges] live corners; empty: one a vertex
     std::vector<std::uint32_t> wedge_carrier_;   // [wedges]
     std::vector<float> values_;                  // [wedges * size]
     std::vector<std::uint32_t> wedge_primitive_; // [wedges]

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <tbb/parallel_for.h>
 
 namespace lodestone {
@@ -17,7 +18,7 @@ class EdgeCollapseSource final : public LodSource {
 public:
     EdgeCollapseSource(std::shared_ptr<const SequenceSet> set,
                        const ScheduleOptions& options,
-                       const ByteModel& bytes)
+                       const ByteModel* bytes)
         : set_(std::move(set)), options_(options), schedule_(*set_, options, bytes) {}
 
     const ScenePtr& scene() const override { return set_->scene; }
@@ -37,7 +38,7 @@ public:
     LodSourcePtr rescheduled(const ScheduleOptions& options,
                              const ByteModel& bytes) const override {
         const auto start = std::chrono::steady_clock::now();
-        auto other = std::make_shared<EdgeCollapseSource>(set_, options, bytes);
+        auto other = std::make_shared<EdgeCollapseSource>(set_, options, &bytes);
         other->seconds_sequence = seconds_sequence;
         other->seconds_schedule = secondsSince(start);
         return other;
@@ -217,8 +218,10 @@ Result<LodSourcePtr> prepareEdgeCollapse(ScenePtr scene,
         return cancelled();
     const double sequence_seconds = secondsSince(start);
     const auto schedule_start = std::chrono::steady_clock::now();
-    const ByteModel bytes(set->scene, ExportOptions{});
-    auto source = std::make_shared<EdgeCollapseSource>(set, schedule, bytes);
+    std::optional<ByteModel> bytes; // costs as much as a small scene's sequences
+    if (schedule.ordering == Ordering::Byte)
+        bytes.emplace(set->scene, ExportOptions{});
+    auto source = std::make_shared<EdgeCollapseSource>(set, schedule, bytes ? &*bytes : nullptr);
     source->seconds_sequence = sequence_seconds;
     source->seconds_schedule = secondsSince(schedule_start);
     return source;

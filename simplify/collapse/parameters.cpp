@@ -44,7 +44,9 @@ ParameterInfo removalParameter() {
 
 Result<EdgeCollapseOptions> readCollapseParameters(const Algorithm& algorithm,
                                                    const ParameterValues& values) {
-    for (const auto& [id, value] : values) {
+    for (const auto& entry : values) {
+        const std::string& id = entry.first;
+        const double value = entry.second;
         const auto known = [&](const ParameterInfo& info) { return info.id == id; };
         const auto found = std::ranges::find_if(algorithm.parameters, known);
         if (found == algorithm.parameters.end())

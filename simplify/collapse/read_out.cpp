@@ -28,17 +28,17 @@ template <class Keep, class Emit>
 std::size_t compact(std::size_t begin, std::size_t end, Keep keep, Emit emit) {
     const std::size_t blocks = (end - begin + kGrain - 1) / kGrain;
     std::vector<std::size_t> at(blocks + 1, 0);
-    const auto blockEnd = [&](std::size_t b) { return std::min(end, begin + (b + 1) * kGrain); };
+    const auto block_end = [&](std::size_t b) { return std::min(end, begin + (b + 1) * kGrain); };
     tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
         std::size_t count = 0;
-        for (std::size_t i = begin + b * kGrain; i < blockEnd(b); ++i)
+        for (std::size_t i = begin + b * kGrain; i < block_end(b); ++i)
             count += keep(i);
         at[b + 1] = count;
     });
     std::partial_sum(at.begin(), at.end(), at.begin());
     tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
         std::size_t to = at[b];
-        for (std::size_t i = begin + b * kGrain; i < blockEnd(b); ++i)
+        for (std::size_t i = begin + b * kGrain; i < block_end(b); ++i)
             if (keep(i))
                 emit(i, to++);
     });

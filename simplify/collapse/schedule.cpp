@@ -31,7 +31,7 @@ public:
     StepReader(const SequenceSet& set,
                std::size_t submesh,
                const ScheduleOptions& options,
-               const ByteModel& bytes)
+               const ByteModel* bytes)
         : sequence_(set.sequences[submesh]), removal_(set.removals[submesh]),
           instances_(set.ranges[submesh].size()), ordering_(options.ordering) {
         if (submesh < options.importance.size())
@@ -40,8 +40,8 @@ public:
             return;
         const auto s = static_cast<std::uint32_t>(submesh);
         for (std::uint32_t p = 0; p < sequence_.counts.size(); ++p)
-            rates_.push_back({bytes.bytesPerVertex(s, p), bytes.bytesPerTriangle(s, p), 0.0});
-        bytes_per_instance_ = bytes.bytesPerInstance(s);
+            rates_.push_back({bytes->bytesPerVertex(s, p), bytes->bytesPerTriangle(s, p), 0.0});
+        bytes_per_instance_ = bytes->bytesPerInstance(s);
     }
 
     std::uint32_t collapses() const { return instances_ > 0 ? sequence_.step_count : 0; }
@@ -136,7 +136,7 @@ struct Head {
 
 } // namespace
 
-Schedule::Schedule(const SequenceSet& set, const ScheduleOptions& options, const ByteModel& bytes)
+Schedule::Schedule(const SequenceSet& set, const ScheduleOptions& options, const ByteModel* bytes)
     : set_(&set), positions_(set.sequences.size()) {
     std::vector<StepReader> readers;
     std::vector<std::vector<Block>> blocks(set.sequences.size());

@@ -28,7 +28,8 @@ class Schedule {
 public:
     // Steps of a submesh: its collapses down to its floor, then its removals. Their order never
     // changes; how the submeshes interleave is the ordering's choice. O(steps log submeshes).
-    Schedule(const SequenceSet& set, const ScheduleOptions& options, const ByteModel& bytes);
+    // bytes: may be null unless the ordering is by byte.
+    Schedule(const SequenceSet& set, const ScheduleOptions& options, const ByteModel* bytes);
 
     std::uint64_t positionCount() const { return triangles_.size(); }
 
