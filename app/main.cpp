@@ -282,6 +282,8 @@ private:
 
     void finishFrame() {
         session_.uiLog().frame(++facts_.frame);
+        session_.uiLog().object(
+            "pictures", "pictures", stale_ || shows_draft_ ? "\"final\":false" : "\"final\":true");
         const std::chrono::duration<double, std::milli> time = Clock::now() - begun_;
         if (const auto told = frame_times_.add(Clock::now(), time.count()))
             session_.uiLog().object("frames", "frames", *told);

@@ -32,7 +32,8 @@ struct Host::Events {
         ImGui_ImplGlfw_KeyCallback(window, key, scan_code, action, modifiers);
     }
 
-    void passBegun(GLFWwindow* window) {
+    // Not earlier: the pass reads modifiers, too.
+    void passEnded(GLFWwindow* window) {
         pressed = false;
         any = any || !waiting_releases.empty();
         for (const auto& [key, scan_code, modifiers] : std::exchange(waiting_releases, {}))
@@ -137,15 +138,16 @@ void Host::beginPass() {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
-    events_->passBegun(window_);
 }
 
 void Host::discardPass() {
     ImGui::EndFrame();
+    events_->passEnded(window_);
 }
 
 void Host::endFrame() {
     ImGui::Render();
+    events_->passEnded(window_);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 

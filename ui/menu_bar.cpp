@@ -22,6 +22,7 @@ void fileMenu(const Ui& ui, const PanelInput& input, WindowState& state) {
                 ui.push(OpenScene{file});
         ImGui::EndMenu();
     }
+    ui.record("Open recent");
     if (ImGui::BeginMenu("Samples")) {
         for (const std::string_view name : sampleNames())
             if (menuItem(ui, name, nullptr))

@@ -33,6 +33,7 @@ class Window:
         self.objects = {}  # (kind, name) -> the newest line about it
         self.frame = 0
         self.messages = []
+        self.frame_times = []
 
     def __enter__(self):
         return self
@@ -64,6 +65,8 @@ class Window:
                 self.frame = entry["number"]
             else:
                 self.objects[entry["kind"], entry["name"]] = entry
+            if entry["kind"] == "frames":
+                self.frame_times.append(entry)
             if entry["kind"] == "message":
                 self.messages.append(dict(entry, severity=SEVERITIES[entry["severity"]]))
 
@@ -111,6 +114,11 @@ class Window:
                 xdotool("mousemove_relative", "--", "1", "0", "mousemove_relative", "--", "-1", "0")
             return self.frame >= goal
         self.wait(f"{count} more frames", out)
+
+    def wait_still(self):
+        """Until every picture is final: no draft, nothing left to draw."""
+        self.wait("final pictures", lambda: self.get("pictures", "pictures") and
+                  self.get("pictures", "pictures")["final"])
 
     def wait_ready(self, *algorithms):
         for algorithm in algorithms:

@@ -5,6 +5,7 @@ usage: window_test.py BINARY [NAME...]      needs $DISPLAY, xdotool, ImageMagick
 Every function named test_* is a rule; prints one line for each, exit 1 if any fails.
 """
 import json
+import os
 import pathlib
 import re
 import shutil
@@ -12,6 +13,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import time
 import traceback
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
@@ -202,6 +204,172 @@ def test_escape_asks_before_it_quits(folder):
         window.wait("the question", lambda: window.state()["dialog"] != 0)
         window.click("Quit/Quit")
         assert window.process.wait(30) == 0
+
+
+def test_keys_in_one_burst_are_not_lost(folder):
+    with open_chair(folder) as window:
+        window.window_id()
+        for _ in range(3):
+            xdotool("key", "--delay", "0", "ctrl+o")
+            window.wait("the browser", lambda: window.state()["dialog"] == 1)
+            window.wait_frames(3)
+            xdotool("key", "--delay", "0", "Escape")
+            window.wait("no dialog", lambda: window.state()["dialog"] == 0)
+            window.wait_frames(3)
+
+
+def test_a_dropped_file_is_opened(folder):
+    python = next((python for python in (sys.executable, shutil.which("python3", path=os.defpath))
+                   if python and subprocess.run([python, "-c", "import gi"], check=False,
+                                                capture_output=True).returncode == 0), None)
+    if not python:
+        print("skipped: python3-gi is not installed")
+        return
+    cube = write_cube(pathlib.Path(folder) / "dropped.glb")
+    with open_chair(folder) as window:
+        x, y, width, height = window.rect(f"View {window.lane_id('ias')}/picture")
+        place = round(x), round(y)
+        source = subprocess.Popen(
+            [python, str(pathlib.Path(__file__).parent / "drag_source.py"),
+             *map(str, place), str(cube)], stdout=subprocess.PIPE, text=True)
+        try:
+            assert source.stdout.readline() == "ready\n"
+            xdotool("mousemove", str(place[0] + 20), str(place[1] + 20), "mousedown", "1")
+            for step in range(1, 20):
+                xdotool("mousemove", str(place[0] + 20 + step * 8),
+                        str(place[1] + 20 + step * 8), "sleep", "0.03")
+                window.read()
+            xdotool("mouseup", "1")
+            window.wait("the cube", lambda: window.document()["path"].endswith("dropped.glb"))
+        finally:
+            source.kill()
+            source.wait()
+
+
+def test_cancelling_a_build_leaves_the_lane_empty_and_the_window_alive(folder):
+    with Window(BINARY, [made(folder, "maple")]) as window:
+        window.wait_ready("original")
+        window.wait("the build", lambda: window.lane("quadric") and
+                    window.lane("quadric")["state"] in ("queued", "building"))
+        window.key("Escape")
+        window.wait("a message", lambda: any("cancelled" in m["text"] for m in window.messages))
+        window.wait("no job", lambda: window.document()["jobs"] == 0)
+        assert window.lane("quadric")["state"] == "failed"
+        window.click(f"View {window.lane_id('quadric')}/Retry")
+        window.wait_ready("quadric")
+
+
+def test_closing_ends_within_a_second_while_jobs_run(folder):
+    with Window(BINARY, [made(folder, "maple")]) as window:
+        window.wait_ready("original")
+        window.wait("the build", lambda: window.lane("quadric")["state"] == "building")
+        begin = time.monotonic()
+        window.process.terminate()
+        assert window.process.wait(30) == 0
+        print(f"        closed after {time.monotonic() - begin:.2f} s")
+
+
+def test_opened_files_are_offered_again(folder):
+    cube = write_cube(pathlib.Path(folder) / "cube.glb")
+    with Window(BINARY, [cube], folder=folder) as window:
+        window.wait("the cube", lambda: window.document() and
+                    window.document()["path"].endswith("cube.glb"))
+    with Window(BINARY, folder=folder) as window:
+        window.wait("the maple tree", lambda: window.lane("original"))
+        window.click("Menu/File")
+        window.click("Menu/File/Open recent")
+        window.wait("the list", lambda: window.get("widget", f"Menu/File/{cube}"))
+        window.click(f"Menu/File/{cube}")
+        window.wait("the cube", lambda: window.document()["path"].endswith("cube.glb"))
+
+
+def test_presets_choose_the_lanes_and_undo_brings_the_old_ones_back(folder):
+    with open_chair(folder) as window:
+        known = len(json.loads(run([BINARY, "--list-algorithms", "--json"]))["algorithms"])
+        for name, count in (("All algorithms", known + 1), ("IAS vs Quadric", 3)):
+            window.click("Menu/Lanes")
+            window.click(f"Menu/Lanes/{name}")
+            window.wait(f"{count} lanes", lambda c=count: window.document()["lanes"] == c)
+        window.key("ctrl+z")
+        window.wait("all lanes again", lambda: window.document()["lanes"] == known + 1)
+        window.key("ctrl+z")
+        window.wait("the first three again", lambda: window.document()["lanes"] == 3)
+
+
+def test_numpad_keys_look_from_the_sides(folder):
+    with open_chair(folder) as window:
+        rect = window.rect(f"View {window.lane_id('original')}/picture")
+        pictures = [window.picture(rect)]
+        for key in ("KP_1", "KP_3", "KP_7", "KP_5"):
+            window.key(key)
+            window.wait_still()
+            pictures.append(window.picture(rect))
+        for before, after in zip(pictures, pictures[1:]):
+            assert differing_share(before, after) > 0.01
+
+
+def test_collapse_keys_step_the_active_lane(folder):
+    with open_chair(folder) as window:
+        window.click(f"View {window.lane_id('ias')}/picture")
+        start = window.lane("ias")["triangles"]
+        window.key("b")
+        one = window.wait("one collapse", lambda: 0 < window.lane("ias")["triangles"] < start and
+                          window.lane("ias")["triangles"])
+        window.key("c")
+        window.wait("five more", lambda: window.lane("ias")["triangles"] < one)
+        for _ in range(4):
+            window.key("v")
+        window.wait("split back", lambda: window.lane("ias")["triangles"] > start)
+
+
+def test_wireframe_draws_edges(folder):
+    with open_chair(folder) as window:
+        rect = window.rect(f"View {window.lane_id('ias')}/picture")
+        window.wait_still()
+        picture = window.picture(rect)
+        window.key("l")
+        window.wait_still()
+        assert differing_share(picture, window.picture(rect)) > 0.01
+        window.key("l")
+        window.wait_still()
+        assert differing_share(picture, window.picture(rect)) < 0.001, "not the picture before"
+
+
+def test_orbiting_and_dragging_report_frame_times(_):
+    """Reports; wall time is no rule."""
+    with Window(BINARY) as window:
+        window.wait_ready(*LANES)
+        window.click("Welcome/\u00d7")
+        for what, name, end in (("orbit", f"View {window.lane_id('original')}/picture", (0.8, 0.6)),
+                                ("slider", "Master/Master", (0.2, 0.5))):
+            window.wait_still()
+            window.frame_times.clear()
+            window.drag(name, (0.45, 0.5), end, steps=30)
+            window.wait_still()
+            window.wait_frames(3)
+            window.wait("frame times", lambda: window.frame_times)
+            frames = sum(entry["count"] for entry in window.frame_times)
+            worst = max(entry["max_ms"] for entry in window.frame_times)
+            p50 = sorted(entry["p50_ms"] for entry in window.frame_times)[len(window.frame_times) // 2]
+            p99 = max(entry["p99_ms"] for entry in window.frame_times)
+            slow = sum(entry["slow"] for entry in window.frame_times)
+            assert frames > 0
+            print(f"        {what}: {frames} frames, p50 {p50} ms, p99 {p99} ms, max {worst} ms, "
+                  f"{slow} above 100 ms")
+
+
+def test_twice_as_dense_nothing_is_cut_off(folder):
+    with Window(BINARY, [made(folder, "chair")], {"LODESTONE_SCALE": "2"}) as window:
+        window.wait_ready(*LANES)
+        xdotool("windowsize", "--sync", window.window_id(), "2560", "1440")
+        window.wait_frames(4)
+        window.wait("the layout", lambda: abs(
+            sum(window.rect("Inspector/Export LOD\u2026")[at] for at in (0, 2)) - 2560) < 80)
+        for (kind, name), entry in list(window.objects.items()):
+            if kind != "widget" or not re.match(r"(View \d+|Inspector|Master|Menu)/", name):
+                continue
+            x, y, w, h = entry["rect"]
+            assert x >= 0 and y >= 0 and x + w <= 2561 and y + h <= 1441, f"{name}: {entry['rect']}"
 
 
 def main():
