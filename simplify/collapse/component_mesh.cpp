@@ -268,6 +268,7 @@ bool ComponentMesh::seamBetween(std::uint32_t face_a,
 void ComponentMesh::addBoundaryQuadrics(std::uint32_t a) {
     const std::uint32_t border = nextStamp();
     const std::uint32_t inner = nextStamp();
+    std::uint32_t borders = 0;
     for (const std::uint32_t face : facesAround(a))
         for (const std::uint32_t b : faces_[face]) {
             if (b <= a) // each edge once
@@ -275,15 +276,19 @@ void ComponentMesh::addBoundaryQuadrics(std::uint32_t a) {
             if (points_[b].mark < border) {
                 points_[b].mark = border;
                 mark_face_[b] = face;
+                ++borders;
                 continue;
             }
             const std::uint32_t first = mark_face_[b];
             if (points_[b].mark == inner || dot(normals_[first], normals_[face]) < kBackToBack)
                 continue;
             points_[b].mark = inner;
+            --borders;
             if (seamBetween(first, face, a) || seamBetween(first, face, b))
                 addBoundaryQuadric(a, b, first);
         }
+    if (borders == 0)
+        return;
     for (const std::uint32_t face : facesAround(a))
         for (const std::uint32_t b : faces_[face])
             if (b > a && points_[b].mark == border) {

@@ -55,6 +55,14 @@ inline Float4 select(decltype(Float4{} < Float4{}) mask, Float4 a, Float4 b) {
     return mask ? a : b;
 }
 
+inline bool allOf(bool mask) {
+    return mask;
+}
+
+inline bool allOf(decltype(Float4{} < Float4{}) mask) {
+    return (mask[0] & mask[1] & mask[2] & mask[3]) != 0;
+}
+
 // error(x) = x.A.x + 2 b.x + c, x relative to the vertex.
 template <class T>
 struct QuadricOf {
@@ -198,11 +206,12 @@ PlacementOf<T> placeEdge(const QuadricOf<T>& p, const QuadricOf<T>& q, const Vec
         best.at.z = select(better, at.z, best.at.z);
         best.cost = select(better, cost, best.cost);
     };
-    for (const float side : {1.0f, -1.0f}) {
-        const Vector3<T> end = half * side;
-        const T cost = evaluate(s, end);
-        offer(cost < best.cost, end, cost);
-    }
+    if (!allOf(near)) // rare
+        for (const float side : {1.0f, -1.0f}) {
+            const Vector3<T> end = half * side;
+            const T cost = evaluate(s, end);
+            offer(cost < best.cost, end, cost);
+        }
     offer(near, x, optimal);
     best.cost = select(best.cost > zero, best.cost, zero); // also where it is not a number
     best.key = best.cost + trace * length2 * kShortEdge;

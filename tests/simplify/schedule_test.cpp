@@ -180,7 +180,7 @@ TEST(Schedule, AMissedTargetEndsAtTheLastPositionAndSaysWhy) {
 TEST(Schedule, ByCostItIsTheSingleGlobalQueueOfThePaper) {
     const ScenePtr scene = mixedScene();
     const SequenceSet set = sequencesOf(scene);
-    const Schedule schedule(set, {Ordering::Cost, {}, {}}, ByteModel(scene, {}));
+    const Schedule schedule(set, {Ordering::Cost, {}, {}}, nullptr);
     std::vector<std::uint32_t> step(set.sequences.size(), 0);
     for (std::uint64_t p = 1; p < schedule.positionCount(); ++p) {
         std::size_t cheapest = step.size(); // ties: the first submesh
@@ -212,8 +212,8 @@ TEST(Schedule, PerTriangleSpendsLessCostThanByCostForTheSameTriangles) {
     const ScenePtr scene = mixedScene();
     const SequenceSet set = sequencesOf(scene);
     const ByteModel bytes(scene, {});
-    const Schedule greedy(set, {Ordering::Triangle, {}, {}}, bytes);
-    const Schedule by_cost(set, {Ordering::Cost, {}, {}}, bytes);
+    const Schedule greedy(set, {Ordering::Triangle, {}, {}}, &bytes);
+    const Schedule by_cost(set, {Ordering::Cost, {}, {}}, &bytes);
     const std::uint64_t full = greedy.trianglesAt(0);
     for (const std::uint64_t percent : {80, 60, 40, 20, 10})
         EXPECT_LE(costAt(set, greedy, full * percent / 100),
@@ -232,10 +232,10 @@ TEST(Schedule, ACheapRunBehindADearHeadIsPooledWithIt) {
         set.sequences[0].cost[i] = i == 0 ? 5.0 : 0.0; // 0.5 a step in the mean
         set.sequences[1].cost[i] = 1.0;
     }
-    const Schedule schedule(set, {Ordering::Triangle, {}, {}}, ByteModel(scene, {}));
+    const Schedule schedule(set, {Ordering::Triangle, {}, {}}, nullptr);
     EXPECT_EQ(schedule.stateAt(0, 10).step, 10u);
     EXPECT_EQ(schedule.stateAt(1, 10).step, 0u);
-    const Schedule by_cost(set, {Ordering::Cost, {}, {}}, ByteModel(scene, {}));
+    const Schedule by_cost(set, {Ordering::Cost, {}, {}}, nullptr);
     EXPECT_EQ(by_cost.stateAt(1, 10).step, 10u);
 }
 
