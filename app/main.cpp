@@ -282,8 +282,7 @@ private:
 
     void finishFrame() {
         session_.uiLog().frame(++facts_.frame);
-        session_.uiLog().object(
-            "pictures", "pictures", stale_ || shows_draft_ ? "\"final\":false" : "\"final\":true");
+        logPictures();
         const std::chrono::duration<double, std::milli> time = Clock::now() - begun_;
         if (const auto told = frame_times_.add(Clock::now(), time.count()))
             session_.uiLog().object("frames", "frames", *told);
@@ -299,6 +298,16 @@ private:
             host_.toggleFullScreen();
         const Document& document = session_.document();
         host_.setTitle(document.scene ? document.scene->name + " \u2013 Lodestone" : "Lodestone");
+    }
+
+    // For tests: whether every view shows what it should.
+    void logPictures() {
+        const bool drawn = !shown_.empty() && std::ranges::all_of(shown_, [](const auto& picture) {
+            return picture.texture != nullptr && !picture.draft;
+        });
+        const bool final = drawn && session_.document().jobs.empty();
+        session_.uiLog().object(
+            "pictures", "pictures", final ? "\"final\":true" : "\"final\":false");
     }
 
     // Returns whether any picture is another than before.

@@ -7,13 +7,15 @@ namespace lodestone::ui {
 namespace {
 
 // The switches that a test cannot read off the document.
-void logState(UiLog& log, const WindowState& state) {
+void logState(UiLog& log, const WindowState& state, const DisplayOptions& view) {
     if (!log.enabled())
         return;
     const std::string members = "\"dialog\":" + std::to_string(static_cast<int>(state.dialog)) +
                                 ",\"welcome\":" + (state.welcome ? "true" : "false") +
                                 ",\"panels_hidden\":" + (state.panels_hidden ? "true" : "false") +
-                                ",\"views\":" + std::to_string(state.views.size());
+                                ",\"views\":" + std::to_string(state.views.size()) +
+                                ",\"wireframe\":" + (view.wireframe ? "true" : "false") +
+                                ",\"shading\":\"" + std::string(shadingName(view.shading)) + "\"";
     log.object("window", "state", members);
 }
 
@@ -52,7 +54,7 @@ void Window::draw(const WindowFacts& facts,
     if (ImGui::GetIO().WantTextInput)
         state_.wakeIn(0.4); // the caret blinks
     ImGui::PopFont();
-    logState(session_.uiLog(), state_);
+    logState(session_.uiLog(), state_, document.view);
 }
 
 void Window::drop(std::span<const std::filesystem::path> files, CommandQueue& commands) {
