@@ -2,6 +2,7 @@
 #include "scene/job_context.h"
 #include "scene/lod.h"
 #include "scene/result.h"
+
 #include <filesystem>
 
 namespace lodestone {
@@ -30,7 +31,7 @@ struct ExportReport {
 // Predicts, exactly and without writing, what exportScene would write. Prepared once for a scene
 // and options; bytes() is O(primitives) for GPU instancing, O(nodes) otherwise. Thread-safe.
 class ByteModel {
-  public:
+public:
     ByteModel(ScenePtr scene, const ExportOptions& options);
     ~ByteModel();
     ByteModel(ByteModel&&) noexcept;
@@ -43,7 +44,7 @@ class ByteModel {
     double bytesPerTriangle(std::uint32_t submesh, std::uint32_t primitive) const;
     double bytesPerInstance(std::uint32_t submesh) const;
 
-  private:
+private:
     struct Impl;
     std::unique_ptr<const Impl> impl_;
 };

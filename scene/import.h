@@ -2,6 +2,7 @@
 #include "scene/job_context.h"
 #include "scene/result.h"
 #include "scene/scene.h"
+
 #include <filesystem>
 
 namespace lodestone {

@@ -15,7 +15,7 @@ struct LodSubmesh {
 // A level of detail: geometry per submesh plus a prefix of its instances. Transforms never change.
 struct Lod {
     std::vector<LodSubmesh> submeshes; // [scene.submeshes]
-    std::uint64_t triangles = 0;        // kept instances counted
+    std::uint64_t triangles = 0;       // kept instances counted
     std::uint64_t unique_triangles = 0;
     std::uint64_t instances = 0;
     std::uint64_t position = 0; // step of the schedule it was read out at
@@ -37,6 +37,7 @@ struct LodShape {
         bool changed = false; // some primitive differs from the scene's own
         std::shared_ptr<const std::vector<std::uint32_t>> instance_order; // as in LodSubmesh
     };
+
     std::vector<SubmeshShape> submeshes;
 };
 

@@ -31,7 +31,9 @@ inline tl::unexpected<Error> badInput(std::string message) {
     return fail(ErrorKind::BadInput, std::move(message));
 }
 
-inline tl::unexpected<Error> cancelled() { return fail(ErrorKind::Cancelled, "cancelled"); }
+inline tl::unexpected<Error> cancelled() {
+    return fail(ErrorKind::Cancelled, "cancelled");
+}
 
 // The process exit code of an error.
 int exitCode(ErrorKind kind);

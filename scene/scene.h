@@ -39,7 +39,10 @@ struct Attribute {
 // Component value as float, normalised integers decoded by glTF's rule. vertex, component in range.
 float attributeValue(const Attribute& attribute, std::size_t vertex, std::size_t component);
 // Inverse: rounds and clamps to what the type can hold.
-void setAttributeValue(Attribute& attribute, std::size_t vertex, std::size_t component, float value);
+void setAttributeValue(Attribute& attribute,
+                       std::size_t vertex,
+                       std::size_t component,
+                       float value);
 // First attribute of that name, or nullptr.
 const Attribute* findAttribute(std::span<const Attribute> attributes, std::string_view semantic);
 
@@ -54,8 +57,8 @@ struct Geometry {
     std::vector<Attribute> attributes;
     std::vector<MorphTarget> morph_targets;
     std::vector<std::uint32_t> indices; // < positions.size(); [3 * triangles] for triangle lists
-    // First vertex of each block that is not welded with the others (an expanded scene has one block
-    // an instance); rising. Empty: one block.
+    // First vertex of each block that is not welded with the others (an expanded scene has one
+    // block an instance); rising. Empty: one block.
     std::vector<std::uint32_t> weld_blocks;
 
     std::size_t triangleCount() const { return indices.size() / 3; }
@@ -90,7 +93,7 @@ struct Submesh {
 struct Instance {
     glm::dmat4 transform{1.0}; // product of all transforms from the root
     std::uint32_t submesh = 0;
-    std::uint32_t node = kNone; // in Scene::nodes
+    std::uint32_t node = kNone;      // in Scene::nodes
     std::uint32_t gpu_index = kNone; // row of the node's EXT_mesh_gpu_instancing, else kNone
 };
 
@@ -113,7 +116,7 @@ struct TextureRef {
     std::uint32_t texcoord = 0; // TEXCOORD_n
     TextureWrap wrap_u = TextureWrap::Repeat;
     TextureWrap wrap_v = TextureWrap::Repeat;
-    bool nearest = false; // magnification filter
+    bool nearest = false;         // magnification filter
     glm::mat3 uv_transform{1.0f}; // KHR_texture_transform
 };
 
@@ -201,8 +204,11 @@ struct Bounds {
     bool empty = true;
 
     void add(const glm::dvec3& point);
+
     glm::dvec3 center() const { return (min + max) * 0.5; }
+
     glm::dvec3 size() const { return max - min; }
+
     double diagonal() const;
 };
 

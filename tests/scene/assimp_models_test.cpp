@@ -1,5 +1,5 @@
-#include "tests/models_folder.h"
 #include "scene/assimp/assimp_import.h"
+#include "tests/models_folder.h"
 
 #include <algorithm>
 #include <array>
