@@ -6,9 +6,9 @@
 build_packages=(
     g++ cmake ninja-build pkg-config
     libglfw3-dev libimgui-dev libepoxy-dev libegl-dev libopengl-dev libgl-dev libstb-dev
-    libfontconfig-dev libglm-dev libtinygltf-dev nlohmann-json3-dev libcli11-dev libspdlog-dev
+    libfontconfig-dev libfreetype-dev libglm-dev libtinygltf-dev nlohmann-json3-dev libcli11-dev libspdlog-dev
     libtbb-dev libexpected-dev libassimp-dev libembree-dev
-    libegl1 libgl1 libgl1-mesa-dri fontconfig fonts-dejavu-core
+    libegl1 libgl1 libgl1-mesa-dri fontconfig fonts-inter fonts-dejavu-core
 )
 
 # To build and run every test and bench besides.

@@ -115,7 +115,7 @@ Resolved EdgeCollapseSource::resolve(const Target& target, const ByteModel& byte
         const double limit =
             target.kind == Target::Kind::Ratio ? target.value * full : target.value;
         position = firstThat([&](std::uint64_t p) {
-            return static_cast<double>(trianglesAt(p)) <= limit + 1e-9 * full;
+            return static_cast<double>(trianglesAt(p)) <= limit + std::min(1e-9 * full, 0.5);
         });
         break;
     }
