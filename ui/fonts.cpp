@@ -72,6 +72,12 @@ void alignDigits(ImFont& font) {
         glyph->AdvanceX = widest;
         font.IndexAdvanceX[digit] = widest;
     }
+    // Hinting leaves thin spaces, which group digits, hardly visible.
+    constexpr ImWchar kThinSpace = 0x2009;
+    if (auto* const space = const_cast<ImFontGlyph*>(font.FindGlyphNoFallback(kThinSpace))) {
+        space->AdvanceX = std::max(space->AdvanceX, std::round(font.FontSize * 0.22f));
+        font.IndexAdvanceX[kThinSpace] = space->AdvanceX;
+    }
 }
 
 struct FontFiles {

@@ -18,8 +18,8 @@ struct SampleWords {
 };
 
 constexpr std::array<SampleWords, 4> kSamples = {{
-    {"maple", "Maple tree", "9,324 instances"},
-    {"village", "Village", "13,523 instances"},
+    {"maple", "Maple tree", "9\u2009324 instances"},
+    {"village", "Village", "13\u2009523 instances"},
     {"chair", "Patio chair", "68 instances"},
     {"bunny", "Bunny scan", "70 K triangles"},
 }};

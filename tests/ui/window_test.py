@@ -71,6 +71,7 @@ def test_the_first_run_shows_the_maple_tree_with_three_lanes(_):
         assert window.lane("quadric") is not None
         window.click("Welcome/\u00d7")
         window.wait("welcome closed", lambda: not window.state()["welcome"])
+        window.wait_still()
         for algorithm in ("original", "ias"):
             rect = window.rect(f"View {window.lane_id(algorithm)}/picture")
             seen = coloured_share(window.picture(rect))
