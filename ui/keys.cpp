@@ -35,7 +35,7 @@ constexpr std::array<Shortcut, 29> kShortcuts = {{
     {"Tab", "hide or show the panels"},
     {"N", "normals"},
     {"L", "wireframe"},
-    {"S / Shift+S", "larger / smaller"},
+    {"S / Shift+S", "smaller / larger"},
     {"Z / Shift+Z", "further / nearer"},
     {"F11", "full screen"},
     {"Click on a value", "type it"},
@@ -94,7 +94,7 @@ void cameraKeys(const Ui& ui, const CameraState& camera) {
         ui.push(SetCamera{other});
     }
     if (held('S'))
-        ui.push(SetCamera{zoomed(camera, shift ? kScaleStep : 1.0 / kScaleStep)});
+        ui.push(SetCamera{zoomed(camera, shift ? 1.0 / kScaleStep : kScaleStep)});
     if (held('Z'))
         ui.push(SetCamera{zoomed(camera, shift ? 1.0 / kScaleStep : kScaleStep)});
 }
