@@ -143,6 +143,7 @@ class Window:
                                                        "--pid", str(self.process.pid)], check=False))
             self._window_id = found.split()[-1]
             xdotool("windowfocus", self._window_id)
+            self.move(100, 100)  # inside it, however small it becomes: see wait_frames
         return self._window_id
 
     def click(self, name, count=1):
