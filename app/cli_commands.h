@@ -5,9 +5,9 @@
 
 #include <functional>
 
-namespace CLI {
+namespace CLI { // NOLINT(readability-identifier-naming): the name of the library
 class App;
-}
+} // namespace CLI
 
 namespace lodestone {
 
