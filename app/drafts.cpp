@@ -6,8 +6,8 @@ namespace lodestone {
 
 namespace {
 
-constexpr double kQuick_ms = 40.0; // a lane that draws in this time needs no draft
-constexpr double kDraft_ms = 12.0; // what a draft may cost: three lanes in 36 ms
+constexpr double kQuickMs = 40.0; // a lane that draws in this time needs no draft
+constexpr double kDraftMs = 12.0; // what a draft may cost: three lanes in 36 ms
 constexpr double kFewestTriangles = 500.0;
 
 // An edge-collapse source for the scene that the lane shows: its own, else another lane's.
@@ -52,14 +52,14 @@ std::shared_ptr<const Lod> Drafts::draftOf(const Document& document, const Lane&
         return nullptr;
     Entry& entry = entries_[lane.id];
     const double cost_ms = expectedCost(entry, lane);
-    if (cost_ms <= kQuick_ms)
+    if (cost_ms <= kQuickMs)
         return nullptr;
     LodSourcePtr source = sourceFor(document, lane);
     if (!source)
         return nullptr;
     const auto full = static_cast<double>(lane.status.lod->triangles);
     if (entry.wanted_triangles <= 0.0)
-        entry.wanted_triangles = std::max(kFewestTriangles, full * kDraft_ms / cost_ms);
+        entry.wanted_triangles = std::max(kFewestTriangles, full * kDraftMs / cost_ms);
     const std::uint64_t position = positionFor(*source, std::min(full, entry.wanted_triangles));
     if (entry.source != source || entry.position != position || !entry.lod) {
         const Lod* const previous = entry.source == source ? entry.lod.get() : nullptr;
@@ -80,9 +80,9 @@ void Drafts::setCosts(const Lane& lane, double full_ms, double draft_ms) {
         return;
     entry.draft_ms = draft_ms;
     // In large steps and with a dead zone, so that drafts do not flicker between sizes.
-    if (draft_ms > 2.0 * kDraft_ms)
+    if (draft_ms > 2.0 * kDraftMs)
         entry.wanted_triangles = std::max(kFewestTriangles, entry.wanted_triangles * 0.5);
-    else if (draft_ms < 0.25 * kDraft_ms)
+    else if (draft_ms < 0.25 * kDraftMs)
         entry.wanted_triangles *= 2.0;
 }
 

@@ -22,7 +22,7 @@ std::optional<std::string> FrameTimes::add(Clock::time_point now, double time_ms
         at(0.5),
         at(0.99),
         times_ms_.back(),
-        std::ranges::count_if(times_ms_, [](double time) { return time > kSlow_ms; }));
+        std::ranges::count_if(times_ms_, [](double time) { return time > kSlowMs; }));
     times_ms_.clear();
     return told;
 }

@@ -13,10 +13,10 @@ public:
 
     // One frame, from the events that caused it to the picture that is out. At most once a second:
     // the inside of a JSON object about the frames since the last time, "count", "p50_ms",
-    // "p99_ms", "max_ms" and "slow", the number above kSlow_ms.
+    // "p99_ms", "max_ms" and "slow", the number above kSlowMs.
     std::optional<std::string> add(Clock::time_point now, double time_ms);
 
-    static constexpr double kSlow_ms = 100.0;
+    static constexpr double kSlowMs = 100.0;
 
 private:
     std::vector<double> times_ms_; // since told_

@@ -9,7 +9,7 @@ namespace lodestone {
 namespace {
 
 // A schedule that took longer than this is made in a job, so that no frame waits for it.
-constexpr double kSynchronousSchedule_s = 0.02;
+constexpr double kSynchronousScheduleSeconds = 0.02;
 
 bool sameTarget(const Target& a, const Target& b) {
     return a.kind == b.kind && a.value == b.value;
@@ -192,7 +192,7 @@ LodSourcePtr LaneWorker::scheduledSource(const Document& document,
     if (scheduled.source && scheduled.base == cached.source && scheduled.bytes == deciding &&
         sameSchedule(options, scheduled.options))
         return scheduled.source;
-    if (cached.source->seconds_schedule <= kSynchronousSchedule_s) {
+    if (cached.source->seconds_schedule <= kSynchronousScheduleSeconds) {
         scheduled = {cached.source, options, deciding, cached.source->rescheduled(options, *bytes)};
         return scheduled.source;
     }

@@ -124,8 +124,9 @@ private:
             return tl::unexpected<Error>(drawn.error());
         DrawnColumn result;
         if (request.measure) {
-            constexpr double kMeasureBudget_s = 10.0; // software renderers need minutes otherwise
-            const auto measured = view->measure(input, {100, 1000, kMeasureBudget_s});
+            constexpr double kMeasureBudgetSeconds =
+                10.0; // software renderers need minutes otherwise
+            const auto measured = view->measure(input, {100, 1000, kMeasureBudgetSeconds});
             if (!measured)
                 return tl::unexpected<Error>(measured.error());
             result.frame_ms = measured->mean_ms;
@@ -236,10 +237,10 @@ private:
     using Clock = std::chrono::steady_clock;
 
     static constexpr int kSettlePasses = 3; // frames until hovering and layout have settled
-    static constexpr double kPictureBudget_ms = 25.0;
+    static constexpr double kPictureBudgetMs = 25.0;
     static constexpr double kSoftwareMsPerTriangle = 0.0002; // llvmpipe on two cores
     static constexpr std::chrono::milliseconds kRest{150};   // no input for so long: refine
-    static constexpr double kLongestWait_s = 0.5;            // finished jobs are noticed within it
+    static constexpr double kLongestWaitSeconds = 0.5;       // finished jobs are noticed within it
 
     // "llvmpipe" of "llvmpipe (LLVM 15.0.6, 256 bits)".
     static std::string shortRendererName(const std::string& renderer) {
@@ -250,7 +251,7 @@ private:
         if (settle_ > 0 || stale_)
             return 0.0;
         const std::chrono::duration<double> left = wake_at_ - Clock::now();
-        const double longest = session_.document().jobs.empty() ? kLongestWait_s : 1.0 / 30.0;
+        const double longest = session_.document().jobs.empty() ? kLongestWaitSeconds : 1.0 / 30.0;
         return std::clamp(left.count(), 0.001, longest);
     }
 
@@ -330,7 +331,7 @@ private:
             pictures_.draw(wanted,
                            orbitCamera(document.camera, document.bounds, viewAspect()),
                            viewOptions(document.view),
-                           kPictureBudget_ms);
+                           kPictureBudgetMs);
         if (!drawn) {
             session_.reportError(drawn.error().message); // repeats are counted, not listed again
             return false;
@@ -398,6 +399,7 @@ private:
             }
             shown_.push_back(
                 {picture.key,
+                 // NOLINTNEXTLINE(performance-no-int-to-ptr): what Dear ImGui calls a texture
                  reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(picture.texture)),
                  picture.stale || picture.draft});
         }

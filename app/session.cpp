@@ -333,14 +333,14 @@ bool Session::update(CommandQueue& commands) {
 }
 
 bool Session::updateUntilIdle(double timeout_s) {
-    constexpr std::uint32_t kSlice_ms = 5;
+    constexpr std::uint32_t kSliceMs = 5;
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(timeout_s);
     CommandQueue none;
     do {
         update(none);
         if (impl_->jobs.idle())
             return true;
-        impl_->jobs.waitForFinished(kSlice_ms);
+        impl_->jobs.waitForFinished(kSliceMs);
     } while (std::chrono::steady_clock::now() < end);
     return false;
 }

@@ -17,7 +17,7 @@ test_packages=(
     python3 python3-gi gir1.2-gtk-3.0 xvfb xauth xdotool x11-utils imagemagick
 )
 
-# To check the sources: a second compiler, fuzzing, format and lint.
+# To check the sources: format, lint, and clang for the fuzz target.
 check_packages=(clang libclang-rt-14-dev clang-format clang-tidy)
 
 # missing_packages NAMES...: prints those not installed, one a line.

@@ -231,17 +231,21 @@ void pointAtInstances(const InstanceBuffer& instances, std::uint32_t first) {
     const std::size_t begin = std::size_t(first) * sizeof(InstanceRow);
     glBindBuffer(GL_ARRAY_BUFFER, instances.rows.name());
     for (GLuint row = 0; row < 3; ++row)
-        glVertexAttribPointer(5 + row,
-                              4,
-                              GL_FLOAT,
-                              GL_FALSE,
-                              sizeof(InstanceRow),
-                              reinterpret_cast<const void*>(begin + row * sizeof(glm::vec4)));
-    glVertexAttribIPointer(8,
-                           1,
-                           GL_UNSIGNED_INT,
-                           sizeof(InstanceRow),
-                           reinterpret_cast<const void*>(begin + offsetof(InstanceRow, id)));
+        glVertexAttribPointer(
+            5 + row,
+            4,
+            GL_FLOAT,
+            GL_FALSE,
+            sizeof(InstanceRow),
+            // NOLINTNEXTLINE(performance-no-int-to-ptr): the library takes a number as a pointer
+            reinterpret_cast<const void*>(begin + row * sizeof(glm::vec4)));
+    glVertexAttribIPointer(
+        8,
+        1,
+        GL_UNSIGNED_INT,
+        sizeof(InstanceRow),
+        // NOLINTNEXTLINE(performance-no-int-to-ptr): the library takes a number as a pointer
+        reinterpret_cast<const void*>(begin + offsetof(InstanceRow, id)));
 }
 
 GlVertexArray makeVertexArray(const GpuGeometry& geometry, const InstanceBuffer& instances) {
@@ -251,12 +255,14 @@ GlVertexArray makeVertexArray(const GpuGeometry& geometry, const InstanceBuffer&
     const VertexLayout& layout = geometry.layout;
     const auto attribute = [&](GLuint index, GLint size, GLenum type, std::size_t offset) {
         glEnableVertexAttribArray(index);
-        glVertexAttribPointer(index,
-                              size,
-                              type,
-                              type == GL_FLOAT ? GL_FALSE : GL_TRUE,
-                              layout.stride_bytes,
-                              reinterpret_cast<const void*>(offset));
+        glVertexAttribPointer(
+            index,
+            size,
+            type,
+            type == GL_FLOAT ? GL_FALSE : GL_TRUE,
+            layout.stride_bytes,
+            // NOLINTNEXTLINE(performance-no-int-to-ptr): the library takes a number as a pointer
+            reinterpret_cast<const void*>(offset));
     };
     attribute(0, 3, GL_FLOAT, 0);
     if ((layout.features & kHasNormal) != 0)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <memory>
@@ -74,7 +75,7 @@ public:
         float x = 0.0f;
         for (const std::uint32_t code : text)
             x += advance(code);
-        return static_cast<std::uint32_t>(x + 0.5f);
+        return static_cast<std::uint32_t>(std::lround(x));
     }
 
     void draw(Pixels& target,
@@ -87,7 +88,7 @@ public:
             static_cast<int>(left_top[1]) + static_cast<int>(static_cast<float>(ascent) * scale_);
         auto pen = static_cast<float>(left_top[0]);
         for (const std::uint32_t code : text) {
-            drawGlyph(target, code, {static_cast<int>(pen + 0.5f), baseline}, color);
+            drawGlyph(target, code, {static_cast<int>(std::lround(pen)), baseline}, color);
             pen += advance(code);
         }
     }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kDegreesPerUnit = 0.4; // of mouse travel
 constexpr double kZoomPerNotch = 0.88;
-constexpr double kSteepest_deg = 89.9;
+constexpr double kSteepestDegrees = 89.9;
 
 double radians(double degrees) {
     return degrees * std::numbers::pi / 180.0;
@@ -31,7 +31,7 @@ CameraState panned(CameraState camera, double right_units, double up_units, doub
 CameraState orbited(CameraState camera, double right_units, double down_units) {
     camera.azimuth_deg = std::remainder(camera.azimuth_deg - right_units * kDegreesPerUnit, 360.0);
     camera.elevation_deg = std::clamp(
-        camera.elevation_deg + down_units * kDegreesPerUnit, -kSteepest_deg, kSteepest_deg);
+        camera.elevation_deg + down_units * kDegreesPerUnit, -kSteepestDegrees, kSteepestDegrees);
     return camera;
 }
 
@@ -44,7 +44,7 @@ CameraState zoomed(CameraState camera, double factor) {
 
 CameraState lookFrom(CameraState camera, AxisSide side) {
     camera.azimuth_deg = side == AxisSide::Right ? 90.0 : 0.0;
-    camera.elevation_deg = side == AxisSide::Top ? kSteepest_deg : 0.0;
+    camera.elevation_deg = side == AxisSide::Top ? kSteepestDegrees : 0.0;
     return camera;
 }
 
@@ -58,8 +58,8 @@ std::optional<DisplayOptions> lightGesture(const DisplayOptions& view) {
         std::remainder(view.light_azimuth_deg - static_cast<double>(io.MouseDelta.x), 360.0);
     lit.light_elevation_deg =
         std::clamp(view.light_elevation_deg - static_cast<double>(io.MouseDelta.y),
-                   -kSteepest_deg,
-                   kSteepest_deg);
+                   -kSteepestDegrees,
+                   kSteepestDegrees);
     return lit;
 }
 

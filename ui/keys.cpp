@@ -129,10 +129,10 @@ void stepKeys(const Ui& ui, LaneId lane) {
         ui.push(EndDrag{});
 }
 
-// A: down and up through the schedule of the active lane, once in kAnimation_s, until A again.
+// A: down and up through the schedule of the active lane, once in kAnimationSeconds, until A again.
 void animationKey(const Ui& ui, const Document& document, WindowState& state) {
-    constexpr double kAnimation_s = 10.0;
-    constexpr double kCoarsest_log10 = -2.5; // 0.3 %
+    constexpr double kAnimationSeconds = 10.0;
+    constexpr double kCoarsestLog10 = -2.5; // 0.3 %
     Animation& animation = state.animation;
     const bool ends = animation.lane != kNoLane && pressed('A');
     if (ends) {
@@ -144,9 +144,9 @@ void animationKey(const Ui& ui, const Document& document, WindowState& state) {
     const Lane* const lane = document.findLane(animation.lane);
     if (!lane || !lane->settings.algorithm)
         return;
-    const double turns = (ImGui::GetTime() - animation.begin_s) / kAnimation_s;
+    const double turns = (ImGui::GetTime() - animation.begin_s) / kAnimationSeconds;
     const double depth = 0.5 - 0.5 * std::cos(turns * 2.0 * std::numbers::pi);
-    const double ratio = std::pow(10.0, kCoarsest_log10 * depth);
+    const double ratio = std::pow(10.0, kCoarsestLog10 * depth);
     ui.push(SetLaneTarget{lane->id, {Target::Kind::Ratio, ratio}, kAnimationDrag});
     state.animate();
 }

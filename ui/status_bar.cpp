@@ -10,7 +10,7 @@ namespace lodestone::ui {
 
 namespace {
 
-constexpr double kToastTime_s = 6.0; // errors stay until they are closed
+constexpr double kToastTimeSeconds = 6.0; // errors stay until they are closed
 
 // The job that has been running longest, or nullptr.
 const JobStatus* shownJob(const Document& document) {
@@ -106,7 +106,7 @@ void drawToast(Ui ui, const PanelInput& input, WindowState& state, const Area& a
         state.toast_begin_s = ImGui::GetTime();
     }
     const bool stays = message.severity == Severity::Error;
-    const double left_s = state.toast_begin_s + kToastTime_s - ImGui::GetTime();
+    const double left_s = state.toast_begin_s + kToastTimeSeconds - ImGui::GetTime();
     if (!stays && left_s <= 0.0) {
         state.seen_message = message.sequence;
         return;

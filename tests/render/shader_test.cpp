@@ -23,7 +23,8 @@ protected:
             GTEST_SKIP() << "no EGL: " << context.error().message;
         }
         context_ = std::move(*context);
-        folder_ = fs::path(testing::TempDir()) / "lodestone_shader_test";
+        const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
+        folder_ = fs::path(testing::TempDir()) / ("lodestone_shaders_" + std::string(test.name()));
         fs::remove_all(folder_);
         fs::copy(fs::path(LODESTONE_SOURCE_DIR) / "shaders", folder_);
         ASSERT_EQ(setenv("LODESTONE_SHADER_DIR", folder_.c_str(), 1), 0);
