@@ -293,7 +293,7 @@ ViewState::drawBudgeted(const View::Input& input, PictureKey key, double budget_
         beginPicture(input);
         if (first)
             endPicture(input);
-        sliced_ = Sliced{std::move(key), {}, {}, 0.0};
+        sliced_ = Sliced{key, {}, {}, 0.0};
     }
     const Result<DrawTotals> totals = drawSlices(input, sliced_->cursor, budget_ms);
     if (!totals) {
@@ -313,7 +313,7 @@ ViewState::drawBudgeted(const View::Input& input, PictureKey key, double budget_
     last_.cost_known = true;
     last_.triangles = sliced_->totals.triangles;
     last_.draw_calls = sliced_->totals.draw_calls;
-    key_ = std::move(sliced_->key);
+    key_ = sliced_->key;
     sliced_.reset();
     return last_;
 }
@@ -327,7 +327,7 @@ Result<DrawReport> ViewState::draw(const View::Input& input, double budget_ms) {
         return last_;
     key_.reset();
     if (renderer_->info().is_software && budget_ms < View::kNoBudget && hasPicture(input))
-        return drawBudgeted(input, std::move(key), budget_ms);
+        return drawBudgeted(input, key, budget_ms);
     sliced_.reset();
     if (Result<void> resized = resize(input.size, chooseAntialiasing(input, renderer_->info()));
         !resized)

@@ -21,7 +21,7 @@ struct Waiting {
     std::uint64_t drawn_at = 0; // turn of the last draw
     std::size_t place = 0;      // in the wanted ones
 
-    auto operator<=>(const Waiting&) const = default;
+    auto operator<=>(const Waiting&) const = default; // NOLINT(modernize-use-nullptr): false alarm
 };
 
 double millisecondsSince(std::chrono::steady_clock::time_point begin) {

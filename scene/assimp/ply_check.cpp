@@ -268,7 +268,7 @@ Result<void> checkPly(std::string_view bytes) {
             continue;
         }
         for (std::uint64_t entry = 0; entry < element.count; ++entry)
-            if (const Result<void> ok = checkEntry(element, entry, vertex_count, reader); !ok)
+            if (Result<void> ok = checkEntry(element, entry, vertex_count, reader); !ok)
                 return ok;
     }
     return {};
