@@ -153,6 +153,7 @@ void addBevelledBar(Mesh& mesh, const BevelledBar& bar) {
     for (int s = 0; s <= bar.segments; ++s) {
         const double y = b + (bar.length - 2.0 * b) * s / bar.segments;
         std::vector<std::uint32_t> ids;
+        ids.reserve(outline.size());
         for (const glm::dvec2& p : outline)
             ids.push_back(mesh.addVertex(middle(y) + glm::dvec3(p.x, 0.0, p.y)));
         for (std::size_t i = 0; s > 0 && i < ids.size(); ++i)

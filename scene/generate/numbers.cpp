@@ -61,12 +61,12 @@ double noise(const glm::dvec3& p, std::uint32_t seed) {
     const int x = static_cast<int>(cell.x);
     const int y = static_cast<int>(cell.y);
     const int z = static_cast<int>(cell.z);
-    const auto lerpX = [&](int dy, int dz) {
+    const auto lerp_x = [&](int dy, int dz) {
         const double a = latticeValue(x, y + dy, z + dz, seed);
         return a + (latticeValue(x + 1, y + dy, z + dz, seed) - a) * w.x;
     };
-    const double front = lerpX(0, 0) + (lerpX(1, 0) - lerpX(0, 0)) * w.y;
-    const double back = lerpX(0, 1) + (lerpX(1, 1) - lerpX(0, 1)) * w.y;
+    const double front = lerp_x(0, 0) + (lerp_x(1, 0) - lerp_x(0, 0)) * w.y;
+    const double back = lerp_x(0, 1) + (lerp_x(1, 1) - lerp_x(0, 1)) * w.y;
     return front + (back - front) * w.z;
 }
 

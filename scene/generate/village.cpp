@@ -109,7 +109,7 @@ void VillageBuilder::placeHouses() {
             }
     for (std::size_t l = 0; l < lots.size(); ++l) {
         // Neighbours differ; the seed decides which type comes where.
-        const std::size_t type = (l * 7 + random_.below(5) * 4) % houses_.size();
+        const std::size_t type = (l * 7 + std::size_t{random_.below(5)} * 4) % houses_.size();
         furnish(lots[l], houses_[type]);
         fenceLot(lots[l]);
         plantGarden(lots[l]);

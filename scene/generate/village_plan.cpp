@@ -95,10 +95,14 @@ int Sites::cellOf(double coordinate) {
     return std::clamp(static_cast<int>(std::floor(cell)), 0, kCells - 1);
 }
 
+std::size_t Sites::cellIndex(int x, int z) {
+    return static_cast<std::size_t>(z) * kCells + static_cast<std::size_t>(x);
+}
+
 bool Sites::isFree(const glm::dvec2& p, double radius) const {
     for (int z = cellOf(p.y - radius); z <= cellOf(p.y + radius); ++z)
         for (int x = cellOf(p.x - radius); x <= cellOf(p.x + radius); ++x)
-            for (const Disc& disc : cells_[static_cast<std::size_t>(z * kCells + x)])
+            for (const Disc& disc : cells_[cellIndex(x, z)])
                 if (glm::length(disc.center - p) < disc.radius + radius)
                     return false;
     return true;
@@ -107,7 +111,7 @@ bool Sites::isFree(const glm::dvec2& p, double radius) const {
 void Sites::take(const glm::dvec2& p, double radius) {
     for (int z = cellOf(p.y - radius); z <= cellOf(p.y + radius); ++z)
         for (int x = cellOf(p.x - radius); x <= cellOf(p.x + radius); ++x)
-            cells_[static_cast<std::size_t>(z * kCells + x)].push_back({p, radius});
+            cells_[cellIndex(x, z)].push_back({p, radius});
 }
 
 } // namespace lodestone::generate

@@ -43,7 +43,9 @@ private:
 
     static constexpr int kCells = 40;
     static int cellOf(double coordinate);
-    std::vector<std::vector<Disc>> cells_{kCells * kCells}; // a disc is in every cell it touches
+    static std::size_t cellIndex(int x, int z);
+    std::vector<std::vector<Disc>> cells_{std::size_t{kCells} *
+                                          kCells}; // a disc is in every cell it touches
 };
 
 } // namespace lodestone::generate
