@@ -42,7 +42,7 @@ std::vector<std::string> extensionList(const json& document, const char* key) {
 std::set<std::uint32_t> rewriteReferences(json& document, CarriedData& carried) {
     std::set<std::uint32_t> wanted;
     const std::size_t node_count = document.contains("nodes") ? document["nodes"].size() : 0;
-    const auto toNumber = [](json& value, std::uint32_t number) {
+    const auto to_number = [](json& value, std::uint32_t number) {
         if (number != kNone)
             value = number;
     };
@@ -68,13 +68,13 @@ std::set<std::uint32_t> rewriteReferences(json& document, CarriedData& carried) 
         value = std::string(kNodes) + nodePointer(node) + parsed.ptr;
     };
     visitor.accessor = [&](json& value) {
-        toNumber(value, carried.accessor(value.get<std::uint32_t>()));
+        to_number(value, carried.accessor(value.get<std::uint32_t>()));
     };
     visitor.skin_accessor = [&](json& value) {
-        toNumber(value, carried.accessor(value.get<std::uint32_t>(), CarriedData::Use::Skin));
+        to_number(value, carried.accessor(value.get<std::uint32_t>(), CarriedData::Use::Skin));
     };
     visitor.buffer_view = [&](json& value) {
-        toNumber(value, carried.bufferView(value.get<std::uint32_t>()));
+        to_number(value, carried.bufferView(value.get<std::uint32_t>()));
     };
     visitReferences(document, visitor);
     return wanted;
