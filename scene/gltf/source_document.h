@@ -18,7 +18,7 @@ namespace lodestone {
 //  - Geometry comes from the Scene alone: accessors that primitives refer to may be absent here.
 //  - An image has "uri" (external file or data URI) or "bufferView", or neither: then its bytes are
 //    in Scene::images[i].bytes and are to be embedded.
-struct SourceDocument {
+struct SourceDocument { // NOLINT(bugprone-exception-escape): json moves without throwing
     nlohmann::json json;
     std::vector<std::vector<std::byte>> buffers; // [json.buffers] resolved bytes of each
     std::filesystem::path folder;                // where external files lie
