@@ -223,7 +223,7 @@ Bounds boundsWithin(const Scene& scene, const glm::dvec3& origin, double limit) 
     tbb::parallel_for(std::size_t{0}, boxes.size(), [&](std::size_t s) {
         boxes[s] = localBounds(scene.submeshes[s]);
     });
-    const auto addInstance = [&](Bounds& bounds, const Instance& instance) {
+    const auto add_instance = [&](Bounds& bounds, const Instance& instance) {
         const Bounds& box = boxes[instance.submesh];
         if (box.empty || contains(bounds, transformedBox(instance.transform, box)))
             return;
@@ -239,7 +239,7 @@ Bounds boundsWithin(const Scene& scene, const glm::dvec3& origin, double limit) 
         Bounds{},
         [&](const tbb::blocked_range<std::size_t>& range, Bounds bounds) {
             for (std::size_t i = range.begin(); i != range.end(); ++i)
-                addInstance(bounds, scene.instances[i]);
+                add_instance(bounds, scene.instances[i]);
             return bounds;
         },
         joined);

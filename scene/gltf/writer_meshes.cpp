@@ -277,7 +277,7 @@ std::filesystem::path imagePath(const Scene& scene, std::size_t index, const std
         const auto path = std::filesystem::path(percentDecoded(image.uri)).lexically_normal();
         const bool outside =
             path.is_absolute() || path.begin() == path.end() || *path.begin() == "..";
-        const auto inside = outside ? path.filename() : path;
+        auto inside = outside ? path.filename() : path;
         if (!inside.empty() && inside.has_filename())
             return inside;
     }

@@ -111,7 +111,7 @@ void visitReferences(json& document, const ReferenceVisitor& visitor) {
 }
 
 void visitMeshAccessors(json& mesh, const ReferenceVisitor& visitor) {
-    const auto visitMembers = [&](json& object) {
+    const auto visit_members = [&](json& object) {
         if (object.is_object())
             for (json& member : object)
                 if (member.is_number_unsigned())
@@ -119,11 +119,11 @@ void visitMeshAccessors(json& mesh, const ReferenceVisitor& visitor) {
     };
     forEach(mesh, "primitives", [&](json& primitive) {
         if (const auto found = primitive.find("attributes"); found != primitive.end())
-            visitMembers(*found);
+            visit_members(*found);
         visitNumber(primitive, "indices", visitor.accessor);
         if (const auto targets = primitive.find("targets"); targets != primitive.end())
             for (json& target : *targets)
-                visitMembers(target);
+                visit_members(target);
     });
 }
 

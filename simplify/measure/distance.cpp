@@ -110,7 +110,7 @@ Result<Sums> measureOneSided(const Side& from,
         return sums;
     const SurfaceVertices vertices(from.pieces);
     const std::uint64_t step = (vertices.size() + options.samples - 1) / options.samples;
-    const Result<Sums> at_vertices =
+    Result<Sums> at_vertices =
         sumBlocks((vertices.size() + step - 1) / step,
                   {middle, stage.end},
                   job,
