@@ -110,18 +110,17 @@ Result<Sums> measureOneSided(const Side& from,
         return sums;
     const SurfaceVertices vertices(from.pieces);
     const std::uint64_t step = (vertices.size() + options.samples - 1) / options.samples;
-    Result<Sums> at_vertices =
-        sumBlocks((vertices.size() + step - 1) / step,
-                  {middle, stage.end},
-                  job,
-                  [&](std::uint64_t begin, std::uint64_t end, Sums& block) {
-                      ClosestSurface::Cursor cursor(to);
-                      for (std::uint64_t v = begin; v < end; ++v) {
-                          const glm::dvec3 point = vertices.at(v * step);
-                          if (!isFar(point))
-                              block.add(cursor.distance(point));
-                      }
-                  });
+    Result<Sums> at_vertices = sumBlocks((vertices.size() + step - 1) / step,
+                                         {middle, stage.end},
+                                         job,
+                                         [&](std::uint64_t begin, std::uint64_t end, Sums& block) {
+                                             ClosestSurface::Cursor cursor(to);
+                                             for (std::uint64_t v = begin; v < end; ++v) {
+                                                 const glm::dvec3 point = vertices.at(v * step);
+                                                 if (!isFar(point))
+                                                     block.add(cursor.distance(point));
+                                             }
+                                         });
     if (!at_vertices)
         return at_vertices;
     sums->max = std::max(sums->max, at_vertices->max);
