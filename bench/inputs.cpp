@@ -24,19 +24,14 @@ Result<ScenePtr> Inputs::own(const std::string& name) {
 
 Result<ScenePtr> Inputs::given(const std::string& name) {
     const std::filesystem::path path = given_ / (name + ".glb");
-    if (given_.empty() || !std::filesystem::exists(path))
-        return ScenePtr();
-    ScenePtr& scene = made_[path.string()];
-    if (scene)
-        return scene;
-    Result<ScenePtr> read = importScene(path, {});
-    if (read)
-        scene = *read;
-    return read;
+    return given_.empty() ? ScenePtr() : readOnce(path);
 }
 
 Result<ScenePtr> Inputs::stanfordBunny() {
-    const std::filesystem::path path = models_ / "meshes" / "bun_zipper" / "bun_zipper.ply";
+    return readOnce(models_ / "meshes" / "bun_zipper" / "bun_zipper.ply");
+}
+
+Result<ScenePtr> Inputs::readOnce(const std::filesystem::path& path) {
     if (!std::filesystem::exists(path))
         return ScenePtr();
     ScenePtr& scene = made_[path.string()];

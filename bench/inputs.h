@@ -23,6 +23,8 @@ public:
     Result<ScenePtr> stanfordBunny();
 
 private:
+    // The scene of a file, read the first time; null if there is no such file.
+    Result<ScenePtr> readOnce(const std::filesystem::path& path);
     std::filesystem::path models_;
     std::filesystem::path given_;
     std::map<std::string, ScenePtr> made_;

@@ -93,9 +93,7 @@ void cameraKeys(const Ui& ui, const CameraState& camera) {
         other.orthographic = !camera.orthographic;
         ui.push(SetCamera{other});
     }
-    if (held('S'))
-        ui.push(SetCamera{zoomed(camera, shift ? 1.0 / kScaleStep : kScaleStep)});
-    if (held('Z'))
+    if (held('S') || held('Z'))
         ui.push(SetCamera{zoomed(camera, shift ? 1.0 / kScaleStep : kScaleStep)});
 }
 
