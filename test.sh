@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # ./test.sh [CTEST OPTIONS]: installs what is missing, builds the release and runs every test.
 # ./test.sh -L unit runs the unit tests alone; labels: unit models render ui validator.
-# With CI=true warnings are errors, and real models that are absent fail instead of skipping.
+# With CI=true warnings are errors, and what a test lacks (models, EGL, a tool) fails instead of
+# skipping.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 cd "$root"

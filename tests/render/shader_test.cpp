@@ -1,4 +1,5 @@
 #include "render/view.h"
+#include "tests/render/headless_test.h"
 
 #include <cstdlib>
 #include <filesystem>
@@ -12,17 +13,12 @@ namespace {
 namespace fs = std::filesystem;
 
 // A copy of the shaders that LODESTONE_SHADER_DIR points at.
-class ShaderFolderTest : public ::testing::Test {
+class ShaderFolderTest : public tests::HeadlessTest {
 protected:
     void SetUp() override {
-        Result<std::unique_ptr<GlContext>> context = createHeadlessContext();
-        if (!context) {
-            const char* ci = std::getenv("CI");
-            if (ci != nullptr && std::string_view(ci) == "true")
-                FAIL() << context.error().message;
-            GTEST_SKIP() << "no EGL: " << context.error().message;
-        }
-        context_ = std::move(*context);
+        HeadlessTest::SetUp();
+        if (!context_)
+            return;
         const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
         folder_ = fs::path(testing::TempDir()) / ("lodestone_shaders_" + std::string(test.name()));
         fs::remove_all(folder_);
@@ -71,7 +67,6 @@ protected:
         return view->draw(input);
     }
 
-    std::unique_ptr<GlContext> context_;
     fs::path folder_;
 };
 

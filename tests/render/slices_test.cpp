@@ -4,19 +4,19 @@
 #include "render/view.h"
 #include "render/view_set.h"
 #include "scene/generate.h"
+#include "tests/render/headless_test.h"
 
 #include <gtest/gtest.h>
 
 namespace lodestone {
 namespace {
 
-class SlicesTest : public testing::Test {
+class SlicesTest : public tests::HeadlessTest {
 protected:
     void SetUp() override {
-        auto context = createHeadlessContext();
-        if (!context)
-            GTEST_SKIP() << context.error().message;
-        context_ = std::move(*context);
+        HeadlessTest::SetUp();
+        if (!context_)
+            return;
         if (!context_->info().is_software)
             GTEST_SKIP() << "only software renderers draw in slices";
         auto renderer = Renderer::create(*context_);
@@ -30,7 +30,6 @@ protected:
     }
 
     static constexpr ViewSize kSize{160, 160};
-    std::unique_ptr<GlContext> context_;
     std::optional<Renderer> renderer_;
     ScenePtr scene_;
     OrbitCamera camera_;

@@ -1,5 +1,6 @@
 #include "render/pick.h"
 #include "render/view.h"
+#include "tests/render/headless_test.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -65,19 +66,14 @@ Material unlit(const glm::vec4& color) {
     return material;
 }
 
-class ViewTest : public ::testing::Test {
+class ViewTest : public tests::HeadlessTest {
 protected:
     static constexpr int kSize = 64;
 
     void SetUp() override {
-        Result<std::unique_ptr<GlContext>> context = createHeadlessContext();
-        if (!context) {
-            const char* ci = std::getenv("CI");
-            if (ci != nullptr && std::string_view(ci) == "true")
-                FAIL() << context.error().message;
-            GTEST_SKIP() << "no EGL: " << context.error().message;
-        }
-        context_ = std::move(*context);
+        HeadlessTest::SetUp();
+        if (!context_)
+            return;
         Result<Renderer> renderer = Renderer::create(*context_);
         ASSERT_TRUE(renderer) << renderer.error().message;
         renderer_ = *renderer;
@@ -132,7 +128,6 @@ protected:
         return 4.0 * static_cast<double>(lit) / static_cast<double>(pixels.rgba.size());
     }
 
-    std::unique_ptr<GlContext> context_;
     std::optional<Renderer> renderer_;
     std::optional<GpuScene> gpu_;
     LodHandle lod_;
