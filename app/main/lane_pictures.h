@@ -1,0 +1,57 @@
+#pragma once
+// The lanes' pictures in the window: which LOD or draft of it each view shows, drawn a few a frame.
+// Main thread, context current.
+#include "app/drafts.h"
+#include "app/session.h"
+#include "render/view_set.h"
+#include "ui/window_state.h"
+
+#include <chrono>
+#include <map>
+
+namespace lodestone {
+
+class LanePictures {
+public:
+    using Clock = std::chrono::steady_clock;
+
+    LanePictures(const GlContext& context, const Renderer& renderer);
+
+    // Goes on drawing what the views should show; tells the session what lanes cost and what went
+    // wrong. Returns whether any picture is another than before.
+    bool draw(Session& session, std::span<const ui::ViewRequest> views);
+
+    std::span<const ui::LanePicture> shown() const { return shown_; }
+
+    // Some picture is not yet what it should be: draw again.
+    bool stale() const { return stale_; }
+
+    // Every view shows what it should, nothing is a draft.
+    bool final() const;
+
+    // When the next draft is to be refined, if that is after `now`; else `latest`.
+    Clock::time_point nextRefinement(Clock::time_point now, Clock::time_point latest) const;
+
+    // The camera turned as it is, near enough that the part, or the whole scene if it is empty,
+    // fills the views.
+    CameraState framedCamera(const Document& document, const Bounds& part);
+
+private:
+    void noteMotion(const Document& document);
+    bool take(Session& session, const std::vector<ViewSet::Picture>& drawn);
+
+    ViewSet pictures_;
+    Drafts drafts_;
+    std::vector<ui::LanePicture> shown_;
+    ScenePtr framed_scene_;
+    FramePoints frame_points_; // of framed_scene_
+    double view_aspect_ = 1.0;
+    CameraState seen_camera_;
+    DisplayOptions seen_view_;
+    std::map<LaneId, std::uint64_t> seen_lods_;    // lod_revision
+    std::map<LaneId, Clock::time_point> rests_at_; // drafts until then
+    bool stale_ = false;
+    bool shows_draft_ = false;
+};
+
+} // namespace lodestone
