@@ -1,6 +1,7 @@
 #include "simplify/algorithm.h"
 
 #include "simplify/ias/ias.h"
+#include "simplify/pointcloud/pointcloud.h"
 #include "simplify/quadric/quadric.h"
 
 #include <algorithm>
@@ -11,8 +12,8 @@
 namespace lodestone {
 
 std::span<const Algorithm> algorithms() {
-    static const std::array<Algorithm, 3> kTable{
-        quadricAlgorithm(), quadricSubmeshAlgorithm(), iasAlgorithm()};
+    static const std::array kTable{
+        quadricAlgorithm(), quadricSubmeshAlgorithm(), iasAlgorithm(), vertexTriplexAlgorithm()};
     return kTable;
 }
 

@@ -183,6 +183,8 @@ TEST(Algorithms, ExportsWeighWhatWasPredicted) {
 TEST(Algorithms, FilesGetStrictlySmallerWithEveryRemovedTriangle) {
     for (const ScenePtr& scene : assetClasses())
         for (const Algorithm& algorithm : algorithms()) {
+            if (algorithm.family != Family::EdgeCollapse)
+                continue; // one-shot methods merge anew for every value of their parameter
             const LodSourcePtr source = prepared(algorithm, scene);
             const ByteModel bytes(source->scene(), {});
             std::uint64_t size = bytes.bytes(source->shapeAt(0));

@@ -1,0 +1,39 @@
+#pragma once
+// One submesh simplified to settings.
+#include "scene/lod.h"
+#include "simplify/pointcloud/cloud_method.h"
+
+namespace lodestone {
+
+// Made once per scene, shared by everything that simplifies it.
+struct CloudSubmesh {
+    const Submesh* submesh = nullptr;
+    Complex complex;
+    CloudSurface surface;        // of complex
+    double stretch = 0.0;        // largest scale of an instance; 0: nothing to see
+    std::uint32_t triangles = 0; // the file's own
+    std::uint32_t instances = 0;
+};
+
+// A submesh after simplification.
+struct CloudPiece {
+    std::vector<GeometryPtr> primitives; // the submesh's own where not changed
+    std::uint32_t triangles = 0;
+    double error = 0.0; // estimate: the farthest that a vertex went, submesh units
+    bool changed = false;
+};
+
+CloudSubmesh makeCloudSubmesh(const Submesh& submesh,
+                              std::span<const Instance> instances,
+                              const JobContext& job);
+
+// As the file has it.
+CloudPiece originalPiece(const CloudSubmesh& from);
+
+// settings.main: distances in the submesh's units. O(faces) nearly.
+CloudPiece simplifyPiece(const CloudSubmesh& from,
+                         const CloudMethod& method,
+                         const CloudSettings& settings,
+                         const JobContext& job);
+
+} // namespace lodestone

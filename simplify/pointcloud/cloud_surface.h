@@ -1,0 +1,65 @@
+#pragma once
+// What the six point-cloud methods work on and give back: a submesh's triangles in the middle of a
+// simplification. Topology on welded vertices, attributes on wedges.
+#include "simplify/collapse/complex.h"
+
+namespace lodestone {
+
+using Triangle = std::array<std::uint32_t, 3>;
+using Triangle3d = std::array<glm::dvec3, 3>;
+
+struct CloudSurface {
+    std::vector<glm::dvec3> positions;       // [vertices] where each vertex is now
+    std::vector<std::uint32_t> wedge_vertex; // [wedges]; kNone: no face has it any more
+    std::vector<std::uint32_t> stands_for;   // [vertices] of the input: what each became
+    std::vector<Triangle> faces;             // [faces] wedges; no two corners at one vertex
+    std::vector<std::uint32_t> primitive;    // [faces] of the submesh
+    std::vector<std::uint8_t> two_sided;     // [faces] the input has the same face turned over
+    std::vector<std::uint8_t> changed;       // [faces] not as in the input
+    double removal_error = 0.0;              // how far a removed vertex lies from what replaced it
+
+    Triangle corners(std::size_t face) const {
+        const Triangle& wedges = faces[face];
+        return {wedge_vertex[wedges[0]], wedge_vertex[wedges[1]], wedge_vertex[wedges[2]]};
+    }
+
+    Triangle3d points(std::size_t face) const {
+        const Triangle vertices = corners(face);
+        return {positions[vertices[0]], positions[vertices[1]], positions[vertices[2]]};
+    }
+};
+
+// The surface of a submesh before any simplification. O(faces).
+CloudSurface makeSurface(const Complex& complex);
+
+// Twice the area of a triangle along its normal.
+glm::dvec3 faceVector(const Triangle3d& points);
+
+// Faces around each vertex, rising.
+struct Stars {
+    std::vector<std::uint32_t> begin; // [vertices + 1] into faces
+    std::vector<std::uint32_t> faces; // [3 * faces]
+
+    std::span<const std::uint32_t> of(std::uint32_t vertex) const {
+        return {faces.data() + begin[vertex], faces.data() + begin[vertex + 1]};
+    }
+};
+
+Stars buildStars(const CloudSurface& surface);
+
+// What a method decided: which vertices become one, and where it lies.
+struct Merges {
+    std::vector<std::uint32_t> target; // [vertices] target[target[v]] == target[v]
+    std::vector<glm::dvec3> positions; // [vertices] finite; of targets
+};
+
+// As the paper words it, or with what keeps the surface sound.
+enum class Fidelity : std::uint8_t { Sound, Literal };
+
+// True once every few thousand rounds if the job is to stop.
+inline bool stopsAt(std::size_t round, const JobContext& job) {
+    constexpr std::size_t kCheckEvery = 8'192;
+    return round % kCheckEvery == 0 && job.stopRequested();
+}
+
+} // namespace lodestone

@@ -1,0 +1,25 @@
+#pragma once
+// One-shot methods behind the contract of a source. A position is a rung of a ladder of values of
+// the method's main parameter; a LOD is computed when it is asked for and the last ones are kept.
+#include "scene/result.h"
+#include "simplify/lod_source.h"
+#include "simplify/pointcloud/cloud_method.h"
+
+namespace lodestone {
+
+struct PointCloudOptions {
+    const CloudMethod* method = nullptr;
+    // > 0: this value of the main parameter, whatever the target; 0: as the target needs.
+    double main = 0.0;
+    CloudSettings settings; // main is overwritten
+};
+
+// Welds every submesh and tries the method along the ladder, so that a target is then found in a
+// few tries. Distances are divided by the largest scale of the submesh's instances. A submesh keeps
+// at least min(4, its own) triangles. Errors: Cancelled. Any thread, deterministic.
+Result<LodSourcePtr> preparePointCloud(ScenePtr scene,
+                                       const PointCloudOptions& options,
+                                       const ScheduleOptions& schedule,
+                                       const JobContext& job);
+
+} // namespace lodestone

@@ -1,0 +1,167 @@
+#include "simplify/pointcloud/retriangulate.h"
+
+#include "simplify/pointcloud/triangle_table.h"
+
+#include <limits>
+#include <numeric>
+
+namespace lodestone {
+
+namespace {
+
+std::uint32_t findRoot(std::vector<std::uint32_t>& parent, std::uint32_t v) {
+    while (parent[v] != v) {
+        parent[v] = parent[parent[v]];
+        v = parent[v];
+    }
+    return v;
+}
+
+// Wedges that become one: those that a face joins whose corners merge. Across a seam no face does.
+// Result [wedges]: the wedge that stands for it.
+std::vector<std::uint32_t>
+groupWedges(const CloudSurface& surface, const Merges& merges, const Complex& complex) {
+    std::vector<std::uint32_t> parent(surface.wedge_vertex.size());
+    std::iota(parent.begin(), parent.end(), 0u);
+    bool any = false;
+    for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+        const Triangle corners = surface.corners(f);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t next = (k + 1) % 3;
+            if (merges.target[corners[k]] != merges.target[corners[next]])
+                continue;
+            const std::uint32_t a = findRoot(parent, surface.faces[f][k]);
+            const std::uint32_t b = findRoot(parent, surface.faces[f][next]);
+            parent[std::max(a, b)] = std::min(a, b);
+            any = true;
+        }
+    }
+    if (!any)
+        return parent;
+    std::vector<std::uint32_t> nearest(parent.size(), kNone); // [roots]
+    std::vector<double> distance2(parent.size(), std::numeric_limits<double>::max());
+    for (std::uint32_t w = 0; w < parent.size(); ++w) {
+        if (surface.wedge_vertex[w] == kNone)
+            continue;
+        const std::uint32_t root = findRoot(parent, w);
+        const glm::dvec3 place = merges.positions[merges.target[surface.wedge_vertex[w]]];
+        const glm::dvec3 away = glm::dvec3(complex.positions[complex.wedge_vertex[w]]) - place;
+        if (glm::dot(away, away) < distance2[root]) {
+            distance2[root] = glm::dot(away, away);
+            nearest[root] = w;
+        }
+    }
+    std::vector<std::uint32_t> stands_for(parent.size());
+    for (std::uint32_t w = 0; w < parent.size(); ++w) {
+        const std::uint32_t chosen = nearest[findRoot(parent, w)];
+        stands_for[w] = chosen == kNone ? w : chosen;
+    }
+    return stands_for;
+}
+
+// Gives each face its new corners; drops those that have collapsed and notes which have changed.
+void remapFaces(CloudSurface& surface,
+                const Merges& merges,
+                std::span<const std::uint32_t> wedge_for) {
+    std::vector<bool> moved(merges.target.size());
+    for (std::uint32_t v = 0; v < merges.target.size(); ++v)
+        if (merges.target[v] != v || merges.positions[v] != surface.positions[v]) {
+            moved[v] = true;
+            moved[merges.target[v]] = true;
+        }
+    std::size_t kept = 0;
+    for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+        const Triangle old = surface.corners(f);
+        const std::uint32_t a = merges.target[old[0]];
+        const std::uint32_t b = merges.target[old[1]];
+        const std::uint32_t c = merges.target[old[2]];
+        if (a == b || b == c || a == c)
+            continue;
+        for (std::size_t k = 0; k < 3; ++k)
+            surface.faces[kept][k] = wedge_for[surface.faces[f][k]];
+        surface.primitive[kept] = surface.primitive[f];
+        surface.two_sided[kept] = surface.two_sided[f];
+        surface.changed[kept] = surface.changed[f] || moved[a] || moved[b] || moved[c];
+        ++kept;
+    }
+    surface.faces.resize(kept);
+    surface.primitive.resize(kept);
+    surface.two_sided.resize(kept);
+    surface.changed.resize(kept);
+}
+
+void keepFaces(CloudSurface& surface, const std::vector<bool>& keep) {
+    std::size_t kept = 0;
+    for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+        if (!keep[f])
+            continue;
+        surface.faces[kept] = surface.faces[f];
+        surface.primitive[kept] = surface.primitive[f];
+        surface.two_sided[kept] = surface.two_sided[f];
+        surface.changed[kept] = surface.changed[f];
+        ++kept;
+    }
+    surface.faces.resize(kept);
+    surface.primitive.resize(kept);
+    surface.two_sided.resize(kept);
+    surface.changed.resize(kept);
+}
+
+// Two-sided faces form a group of their own in which nothing cancels.
+std::uint32_t groupOf(const CloudSurface& surface, std::size_t face) {
+    return 2 * surface.primitive[face] + surface.two_sided[face];
+}
+
+void dropDoubles(CloudSurface& surface) {
+    const auto changed = static_cast<std::size_t>(
+        std::ranges::count_if(surface.changed, [](std::uint8_t flag) { return flag != 0; }));
+    TriangleTable table(changed);
+    for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
+        if (!surface.changed[f])
+            continue;
+        const TriangleKey key = triangleKey(surface.corners(f), groupOf(surface, f));
+        TriangleTable::Entry& entry = table.at(key);
+        std::uint32_t& first = key.turned ? entry.backward : entry.forward;
+        first = std::min(first, f);
+        ++(key.turned ? entry.backward_count : entry.forward_count);
+    }
+    std::vector<bool> keep(surface.faces.size(), true);
+    for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
+        if (!surface.changed[f])
+            continue;
+        const TriangleKey key = triangleKey(surface.corners(f), groupOf(surface, f));
+        const TriangleTable::Entry& entry = table.at(key);
+        const std::uint32_t own = key.turned ? entry.backward_count : entry.forward_count;
+        const std::uint32_t others = key.turned ? entry.forward_count : entry.backward_count;
+        const bool survives = own > others || surface.two_sided[f];
+        keep[f] = survives && f == (key.turned ? entry.backward : entry.forward);
+    }
+    keepFaces(surface, keep);
+}
+
+void forgetUnusedWedges(CloudSurface& surface) {
+    std::vector<bool> used(surface.wedge_vertex.size(), false);
+    for (const Triangle& face : surface.faces)
+        for (const std::uint32_t wedge : face)
+            used[wedge] = true;
+    for (std::size_t w = 0; w < used.size(); ++w)
+        if (!used[w])
+            surface.wedge_vertex[w] = kNone;
+}
+
+} // namespace
+
+void applyMerges(CloudSurface& surface, const Merges& merges, const Complex& complex) {
+    const std::vector<std::uint32_t> wedge_for = groupWedges(surface, merges, complex);
+    remapFaces(surface, merges, wedge_for);
+    for (std::uint32_t& vertex : surface.wedge_vertex)
+        if (vertex != kNone)
+            vertex = merges.target[vertex];
+    for (std::uint32_t& vertex : surface.stands_for)
+        vertex = merges.target[vertex];
+    surface.positions = merges.positions;
+    dropDoubles(surface);
+    forgetUnusedWedges(surface);
+}
+
+} // namespace lodestone

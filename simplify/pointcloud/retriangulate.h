@@ -1,0 +1,19 @@
+#pragma once
+// From what a method decided to a surface again: the "surface Delaunay" retriangulation.
+#include "simplify/pointcloud/cloud_surface.h"
+
+namespace lodestone {
+
+// Indices remapped; faces with two corners at one vertex dropped; of changed faces of a primitive
+// on the same three vertices: opposite ones cancel in pairs, of equal ones the first is kept. So a
+// closed, consistently oriented surface gets no edge with exactly one face. Faces that the input
+// has on both sides stay both. Wedges that became one keep the attributes of the wedge that lay
+// nearest. complex: what the surface was made of. O(faces).
+void applyMerges(CloudSurface& surface, const Merges& merges, const Complex& complex);
+
+// Flips edges to the Delaunay criterion in the faces that changed (and their borders), where the
+// two faces are nearly in one plane, belong to one primitive and no seam runs between them.
+// O(faces). Stops early where asked to.
+void flipToDelaunay(CloudSurface& surface, const JobContext& job);
+
+} // namespace lodestone
