@@ -8,12 +8,13 @@ build_packages=(
     libglfw3-dev libimgui-dev libepoxy-dev libegl-dev libopengl-dev libgl-dev libstb-dev
     libfontconfig-dev libfreetype-dev libglm-dev libtinygltf-dev nlohmann-json3-dev libcli11-dev libspdlog-dev
     libtbb-dev libexpected-dev libassimp-dev libembree-dev
+    libmeshoptimizer-dev libdraco-dev
     libegl1 libgl1 libgl1-mesa-dri fontconfig fonts-inter fonts-dejavu-core
 )
 
 # To build and run every test and bench besides.
 test_packages=(
-    git ca-certificates libgtest-dev libbenchmark-dev libmeshoptimizer-dev
+    git ca-certificates libgtest-dev libbenchmark-dev
     python3 python3-gi gir1.2-gtk-3.0 xvfb xauth xdotool x11-utils imagemagick
 )
 

@@ -188,9 +188,6 @@ Result<std::span<const std::byte>> AccessorReader::view(std::size_t index) const
     const std::string name = "buffer view " + std::to_string(index);
     const std::uint64_t buffer_index = *unsignedMember(view, "buffer");
     const std::vector<std::byte>& buffer = document_.buffers[buffer_index];
-    if (buffer.empty() && extension(view, "EXT_meshopt_compression") != nullptr)
-        return badInput(name + " is compressed with EXT_meshopt_compression, which is not "
-                               "supported: export without mesh compression");
     const std::uint64_t offset = unsignedMember(view, "byteOffset").value_or(0);
     const std::uint64_t length = *unsignedMember(view, "byteLength");
     if (offset > buffer.size() || length > buffer.size() - offset)
@@ -209,19 +206,28 @@ Result<AccessorPtr> AccessorReader::read(std::size_t index) {
     return data;
 }
 
-Result<AccessorPtr> AccessorReader::readUncached(std::size_t index) const {
+Result<AccessorData> AccessorReader::format(std::size_t index) const {
     const json& accessor = listOf(document_.json, "accessors")[index];
     const std::optional<Layout> layout = layoutOf(accessor);
     if (!layout)
         return badInput(accessorName(index) + ": component type or type is unknown: "
                                               "re-export the file");
-    auto data = std::make_shared<AccessorData>();
-    data->type = layout->type;
-    data->components = static_cast<std::uint8_t>(layout->rows * layout->columns);
-    data->matrix = layout->columns > 1;
-    data->normalized =
-        accessor.value("normalized", false) && layout->type != ComponentType::Float32;
-    data->count = *unsignedMember(accessor, "count");
+    AccessorData data;
+    data.type = layout->type;
+    data.components = static_cast<std::uint8_t>(layout->rows * layout->columns);
+    data.matrix = layout->columns > 1;
+    data.normalized = accessor.value("normalized", false) && layout->type != ComponentType::Float32;
+    data.count = *unsignedMember(accessor, "count");
+    return data;
+}
+
+Result<AccessorPtr> AccessorReader::readUncached(std::size_t index) const {
+    const json& accessor = listOf(document_.json, "accessors")[index];
+    Result<AccessorData> known = format(index);
+    if (!known)
+        return tl::make_unexpected(known.error());
+    const std::optional<Layout> layout = layoutOf(accessor);
+    auto data = std::make_shared<AccessorData>(std::move(*known));
     if (unsignedMember(accessor, "bufferView")) {
         Result<Strided> source = denseSource(*this, document_, index, *layout);
         if (!source)

@@ -28,7 +28,10 @@ public:
     // index in range. Errors: BadInput, message without file name.
     Result<AccessorPtr> read(std::size_t index);
 
-    // Bytes of a buffer view. Errors: BadInput if it leaves its buffer, is compressed or missing.
+    // Type, components and count as the file says, no bytes. Errors: BadInput as above.
+    Result<AccessorData> format(std::size_t index) const;
+
+    // Bytes of a buffer view. Errors: BadInput if it leaves its buffer.
     Result<std::span<const std::byte>> view(std::size_t index) const;
 
     std::uint64_t count(std::size_t index) const; // as the file says, unchecked

@@ -127,7 +127,7 @@ private:
         return primitive;
     }
 
-    // What was read is the uncompressed fallback; the compressed twin would go stale.
+    // What was read is in the scene; the compressed twin would go stale.
     static void dropCompression(json& primitive) {
         if (extension(primitive, "KHR_draco_mesh_compression") != nullptr)
             primitive["extensions"].erase("KHR_draco_mesh_compression");

@@ -1,5 +1,7 @@
 #include "scene/gltf/primitive_reader.h"
 
+#include "scene/gltf/draco_reader.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -27,6 +29,16 @@ Attribute toAttribute(std::string semantic, const AccessorData& data) {
     attribute.normalized = data.normalized;
     attribute.bytes = data.bytes;
     return attribute;
+}
+
+// What an attribute's accessor holds, or what was decoded in its place.
+Result<AccessorPtr> vertexData(const std::string& semantic,
+                               std::uint64_t accessor,
+                               AccessorReader& accessors,
+                               const DracoPrimitive& decoded) {
+    const auto found = decoded.attributes.find(semantic);
+    return found == decoded.attributes.end() ? accessors.read(accessor)
+                                             : Result<AccessorPtr>(found->second);
 }
 
 Result<std::vector<glm::vec3>> readPositions(const AccessorData& data) {
@@ -180,9 +192,11 @@ void repairAttributes(PrimitiveData& data,
     }
 }
 
-// Attributes of a primitive or a morph target. with_position: morph targets keep POSITION here.
+// Attributes of a primitive or a morph target. decoded: compressed data that stand in for some of
+// its accessors. with_position: morph targets keep POSITION here.
 Result<std::vector<Attribute>> readAttributes(const json& map,
                                               AccessorReader& accessors,
+                                              const DracoPrimitive& decoded,
                                               std::size_t vertex_count,
                                               bool with_position) {
     std::vector<Attribute> attributes;
@@ -190,12 +204,11 @@ Result<std::vector<Attribute>> readAttributes(const json& map,
         if (semantic == "POSITION" && !with_position)
             continue;
         const std::string shown = semantic.substr(0, 60);
-        const std::uint64_t index = *asUnsigned(accessor);
-        if (accessors.count(index) != vertex_count)
-            return badInput(shown + " has " + ofCount(accessors.count(index), vertex_count));
-        Result<AccessorPtr> data = accessors.read(index);
+        Result<AccessorPtr> data = vertexData(semantic, *asUnsigned(accessor), accessors, decoded);
         if (!data)
             return badInput(shown + ": " + data.error().message);
+        if ((*data)->count != vertex_count)
+            return badInput(shown + " has " + ofCount((*data)->count, vertex_count));
         attributes.push_back(toAttribute(semantic, **data));
     }
     return attributes;
@@ -208,7 +221,7 @@ readMorphTargets(const json& primitive, AccessorReader& accessors, Geometry& geo
         return {};
     for (std::size_t t = 0; t < targets->size(); ++t) {
         Result<std::vector<Attribute>> attributes =
-            readAttributes((*targets)[t], accessors, geometry.positions.size(), true);
+            readAttributes((*targets)[t], accessors, {}, geometry.positions.size(), true);
         if (!attributes)
             return badInput("morph target " + std::to_string(t) + ": " +
                             attributes.error().message);
@@ -240,19 +253,20 @@ Result<std::optional<PrimitiveData>> readPrimitive(const json& primitive,
                                                    std::vector<std::string>& notes) {
     const json& attributes = primitive["attributes"];
     const std::optional<std::uint64_t> position = unsignedMember(attributes, "POSITION");
-    if (extension(primitive, "KHR_draco_mesh_compression") != nullptr &&
-        (!position ||
-         !unsignedMember(listOf(accessors.document().json, "accessors")[*position], "bufferView")))
-        return badInput("is compressed with KHR_draco_mesh_compression, which is not supported: "
-                        "export without mesh compression");
-    const std::uint64_t mode = unsignedMember(primitive, "mode").value_or(kTriangles);
+    std::uint64_t mode = unsignedMember(primitive, "mode").value_or(kTriangles);
     if (mode > kFan)
         return badInput("mode " + std::to_string(mode) + " is unknown: re-export the file");
     if (!position) {
         notes.push_back(name + " has no POSITION and was left out");
         return std::nullopt;
     }
-    Result<AccessorPtr> position_data = accessors.read(*position);
+    Result<std::optional<DracoPrimitive>> compressed = readDraco(primitive, accessors);
+    if (!compressed)
+        return tl::make_unexpected(compressed.error());
+    const DracoPrimitive decoded = compressed->value_or(DracoPrimitive{});
+    if (*compressed)
+        mode = kTriangles; // strips are decoded as lists
+    Result<AccessorPtr> position_data = vertexData("POSITION", *position, accessors, decoded);
     if (!position_data)
         return badInput("POSITION: " + position_data.error().message);
     Result<std::vector<glm::vec3>> positions = readPositions(**position_data);
@@ -264,17 +278,22 @@ Result<std::optional<PrimitiveData>> readPrimitive(const json& primitive,
     data.position_normalized = (*position_data)->normalized;
     data.geometry.positions = std::move(*positions);
     const std::size_t vertex_count = data.geometry.positions.size();
-    Result<std::vector<std::uint32_t>> indices = readIndices(primitive, accessors, vertex_count);
-    if (!indices)
-        return tl::make_unexpected(indices.error());
-    data.geometry.indices = std::move(*indices);
+    if (*compressed) {
+        data.geometry.indices = decoded.indices;
+    } else {
+        Result<std::vector<std::uint32_t>> indices =
+            readIndices(primitive, accessors, vertex_count);
+        if (!indices)
+            return tl::make_unexpected(indices.error());
+        data.geometry.indices = std::move(*indices);
+    }
     normaliseIndices(mode, data.geometry.indices, name, notes);
     if (data.geometry.indices.empty()) {
         notes.push_back(name + " has nothing to draw and was left out");
         return std::nullopt;
     }
     Result<std::vector<Attribute>> others =
-        readAttributes(attributes, accessors, vertex_count, false);
+        readAttributes(attributes, accessors, decoded, vertex_count, false);
     if (!others)
         return tl::make_unexpected(others.error());
     data.geometry.attributes = std::move(*others);

@@ -4,6 +4,7 @@
 #include "scene/gltf/container.h"
 #include "scene/gltf/material_reader.h"
 #include "scene/gltf/mesh_reader.h"
+#include "scene/gltf/meshopt_reader.h"
 #include "scene/gltf/node_reader.h"
 #include "scene/gltf/resources.h"
 #include "scene/gltf/validate.h"
@@ -50,23 +51,12 @@ void eraseName(json& document, const char* list_name, std::string_view name) {
         list = std::move(kept);
 }
 
-// Compressed twins of what was read would go stale, so the document forgets them.
-void forgetCompression(const ReadContext& context) {
-    json& document = context.document.json;
+// What was compressed is in the scene now and leaves it as the export is told to.
+void forgetCompression(json& document) {
     for (const char* name : {"KHR_draco_mesh_compression", "EXT_meshopt_compression"}) {
-        const json& used = listOf(document, "extensionsUsed");
-        if (std::ranges::find(used, json(name)) == used.end())
-            continue;
-        context.note(std::string("read without ") + name +
-                     ", from the uncompressed data beside it");
         eraseName(document, "extensionsUsed", name);
         eraseName(document, "extensionsRequired", name);
     }
-    for (const char* list : {"buffers", "bufferViews"})
-        if (document.contains(list))
-            for (json& element : document[list])
-                if (extension(element, "EXT_meshopt_compression") != nullptr)
-                    element["extensions"].erase("EXT_meshopt_compression");
 }
 
 Result<void> checkDrawable(const ReadContext& context) {
@@ -81,6 +71,8 @@ Result<void> readAll(const ReadContext& context, GltfContainer& container) {
         return context.bad(valid.error().message);
     if (Result<void> read = readBuffers(context, container); !read)
         return read;
+    if (Result<void> undone = decompressMeshopt(context); !undone)
+        return undone;
     context.job.report(0.2);
     noteRequiredExtensions(context);
     AccessorReader accessors(context.document);
@@ -90,7 +82,7 @@ Result<void> readAll(const ReadContext& context, GltfContainer& container) {
     for (const auto& step : {readMaterials, readImages, checkDrawable})
         if (Result<void> read = step(context); !read)
             return read;
-    forgetCompression(context);
+    forgetCompression(context.document.json);
     noteOutliers(context.scene);
     return {};
 }

@@ -11,9 +11,9 @@ namespace lodestone {
 //
 // One Submesh a mesh of the document, in its order; a mesh that no node of the default scene draws
 // is a submesh with no instance, so that an export keeps it. Scene::nodes has the document's order.
-// KHR_draco_mesh_compression and EXT_meshopt_compression are read only where uncompressed data
-// stand beside them (noted). Unknown extensions are kept and, if the file requires them, noted.
-// Errors: BadInput, "<file>: <object>: <fault>: <remedy>"; Cancelled. Any thread.
+// KHR_draco_mesh_compression and EXT_meshopt_compression are undone; uncompressed data that stand
+// beside compressed ones are preferred. Unknown extensions are kept and, if the file requires them,
+// noted. Errors: BadInput, "<file>: <object>: <fault>: <remedy>"; Cancelled. Any thread.
 Result<ScenePtr> readGltf(const std::filesystem::path& path, const JobContext& job);
 
 // The same from bytes in memory. path: whose name stands in messages and beside which external

@@ -242,12 +242,12 @@ TEST(BadInput, MissingAndShortBuffersAreNamed) {
                    "buffer 0: has neither a uri nor a GLB chunk");
 }
 
-TEST(BadInput, CompressedGeometryIsNamedWithItsExtension) {
+TEST(BadInput, DamagedCompressedGeometryIsNamedWithItsExtension) {
     GltfMaker maker = triangle();
     maker.json["accessors"][0].erase("bufferView");
     maker.json["meshes"][0]["primitives"][0]["extensions"] = {
         {"KHR_draco_mesh_compression", {{"bufferView", 0}, {"attributes", {{"POSITION", 0}}}}}};
-    expectBadInput(maker, "KHR_draco_mesh_compression");
+    expectBadInput(maker, "KHR_draco_mesh_compression: the data are damaged");
 }
 
 TEST(BadInput, AStopRequestCancels) {
