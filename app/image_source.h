@@ -4,8 +4,10 @@
 #include "scene/job_context.h"
 #include "scene/lod.h"
 #include "scene/result.h"
+#include "simplify/measure/image_difference.h"
 
 #include <filesystem>
+#include <functional>
 
 namespace lodestone {
 
@@ -40,11 +42,32 @@ struct RenderReport {
     std::string renderer;         // GL_RENDERER
 };
 
+struct PictureRequest {
+    std::vector<ImageColumn> columns; // >= 1; labels are not drawn
+    std::vector<OrbitView> views;     // each framed for the first column's scene
+    std::uint32_t width_px = 512;
+    std::uint32_t height_px = 512;
+    ShadingMode shading = ShadingMode::Lit;
+};
+
+// Which column and view of the request a picture shows.
+struct PictureOrigin {
+    std::size_t column = 0;
+    std::size_t view = 0;
+};
+
+// What it fails with ends the drawing.
+using PictureSink = std::function<Result<void>(PictureOrigin, Picture)>;
+
 class ImageSource {
 public:
     virtual ~ImageSource() = default;
     // Draws off screen and writes the PNG. Errors: Failed (no GL, disk), Cancelled. Main thread.
     virtual Result<RenderReport> render(const RenderRequest& request, const JobContext& job) = 0;
+    // Draws off screen, column after column, each from all views in order, and hands every picture
+    // over. Plain background, opaque. Errors: as render, or the sink's. Main thread.
+    virtual Result<void>
+    draw(const PictureRequest& request, const PictureSink& sink, const JobContext& job) = 0;
 };
 
 } // namespace lodestone

@@ -62,26 +62,103 @@ public:
         return writePicture(request, cells, std::move(report));
     }
 
+    Result<void>
+    draw(const PictureRequest& request, const PictureSink& sink, const JobContext& job) override {
+        auto context = createHeadlessContext();
+        if (!context)
+            return tl::unexpected<Error>(std::move(context.error()));
+        const auto renderer = Renderer::create(**context);
+        if (!renderer)
+            return tl::unexpected<Error>(renderer.error());
+        auto view = View::create(*renderer);
+        if (!view)
+            return tl::unexpected<Error>(std::move(view.error()));
+        std::vector<OrbitCamera> cameras;
+        for (std::size_t column = 0; column < request.columns.size(); ++column) {
+            const auto uploaded = upload(*renderer, request.columns[column]);
+            if (!uploaded)
+                return tl::unexpected<Error>(uploaded.error());
+            if (column == 0)
+                cameras = framedCameras(request, uploaded->scene.framePoints());
+            View::Input input;
+            input.scene = &uploaded->scene;
+            input.lod = &uploaded->lod;
+            input.options.shading = shadingFor(request.shading);
+            input.options.background = Background::Solid;
+            input.size = {static_cast<int>(request.width_px), static_cast<int>(request.height_px)};
+            for (std::size_t v = 0; v < cameras.size(); ++v) {
+                if (job.stopRequested())
+                    return cancelled();
+                input.camera = cameras[v];
+                Result<Picture> picture = drawPicture(*view, input);
+                if (!picture)
+                    return tl::unexpected<Error>(std::move(picture.error()));
+                if (Result<void> taken = sink({column, v}, std::move(*picture)); !taken)
+                    return taken;
+                job.report(static_cast<double>(column * cameras.size() + v + 1) /
+                           static_cast<double>(request.columns.size() * cameras.size()));
+            }
+        }
+        return {};
+    }
+
 private:
-    // camera: made for the first column, kept for the others.
-    static Result<DrawnColumn> drawColumn(const Renderer& renderer,
-                                          const RenderRequest& request,
-                                          const ImageColumn& column,
-                                          std::optional<OrbitCamera>& camera) {
+    struct Uploaded {
+        GpuScene scene;
+        LodHandle lod;
+    };
+
+    static Result<Uploaded> upload(const Renderer& renderer, const ImageColumn& column) {
         auto scene = GpuScene::create(renderer, column.scene);
         if (!scene)
             return tl::unexpected<Error>(std::move(scene.error()));
         LodHandle lod;
         if (const auto uploaded = scene->update(lod, *column.lod); !uploaded)
             return tl::unexpected<Error>(uploaded.error());
+        return Uploaded{std::move(*scene), std::move(lod)};
+    }
+
+    // The directions of the views, each with the points framed.
+    static std::vector<OrbitCamera> framedCameras(const PictureRequest& request,
+                                                  const FramePoints& points) {
+        std::vector<OrbitCamera> cameras;
+        for (const OrbitView& view : request.views) {
+            OrbitCamera camera;
+            camera.azimuth_rad = view.azimuth_deg * kRadiansPerDegree;
+            camera.elevation_rad = view.elevation_deg * kRadiansPerDegree;
+            frameCamera(camera, points, static_cast<double>(request.width_px) / request.height_px);
+            if (view.distance > 0.0)
+                camera.distance = view.distance;
+            cameras.push_back(camera);
+        }
+        return cameras;
+    }
+
+    static Result<Picture> drawPicture(View& view, const View::Input& input) {
+        if (const auto drawn = view.draw(input); !drawn)
+            return tl::unexpected<Error>(drawn.error());
+        Result<Pixels> pixels = view.readPixels();
+        if (!pixels)
+            return tl::unexpected<Error>(std::move(pixels.error()));
+        return Picture{pixels->width, pixels->height, std::move(pixels->rgba)};
+    }
+
+    // camera: made for the first column, kept for the others.
+    static Result<DrawnColumn> drawColumn(const Renderer& renderer,
+                                          const RenderRequest& request,
+                                          const ImageColumn& column,
+                                          std::optional<OrbitCamera>& camera) {
+        const auto uploaded = upload(renderer, column);
+        if (!uploaded)
+            return tl::unexpected<Error>(uploaded.error());
         auto view = View::create(renderer);
         if (!view)
             return tl::unexpected<Error>(std::move(view.error()));
         if (!camera)
-            camera = cameraFor(request, scene->bounds());
+            camera = cameraFor(request, uploaded->scene.bounds());
         View::Input input;
-        input.scene = &*scene;
-        input.lod = &lod;
+        input.scene = &uploaded->scene;
+        input.lod = &uploaded->lod;
         input.camera = *camera;
         input.options.shading = shadingFor(request.shading);
         input.options.wireframe = request.wireframe;

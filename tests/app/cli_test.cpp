@@ -35,6 +35,23 @@ public:
         return report;
     }
 
+    // Grey pictures, as bright as the share of the original's triangles that the column keeps.
+    Result<void>
+    draw(const PictureRequest& request, const PictureSink& sink, const JobContext&) override {
+        const double all = static_cast<double>(request.columns[0].lod->triangles);
+        for (std::size_t column = 0; column < request.columns.size(); ++column)
+            for (std::size_t view = 0; view < request.views.size(); ++view) {
+                const double share =
+                    static_cast<double>(request.columns[column].lod->triangles) / all;
+                Picture picture{request.width_px, request.height_px, {}};
+                picture.rgba.assign(std::size_t{4} * request.width_px * request.height_px,
+                                    static_cast<std::uint8_t>(std::min(share, 1.0) * 255.0));
+                if (Result<void> taken = sink({column, view}, std::move(picture)); !taken)
+                    return taken;
+            }
+        return {};
+    }
+
     RenderRequest last;
 };
 
