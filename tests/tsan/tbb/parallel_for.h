@@ -3,6 +3,7 @@
 #include "tests/tsan/tbb/fork_join.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/partitioner.h>
 
 namespace tbb {
 
@@ -25,6 +26,11 @@ void parallel_for(const blocked_range<Value>& range, const Body& body) {
         lodestone::tsan::forkJoin(parts, [&](std::size_t part) {
             body(blocked_range<Value>(at(part), at(part + 1), range.grainsize()));
         });
+}
+
+template <class Value, class Body>
+void parallel_for(const blocked_range<Value>& range, const Body& body, const simple_partitioner&) {
+    parallel_for(range, body);
 }
 
 } // namespace tbb
