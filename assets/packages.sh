@@ -18,6 +18,11 @@ test_packages=(
     python3 python3-gi gir1.2-gtk-3.0 xvfb xauth xdotool x11-utils imagemagick
 )
 
+# Peers that the bench measures beside us; each is left out, and named as such, where it is missing.
+bench_packages=(
+    libbenchmark-dev gltfpack libopenmesh-dev libcgal-dev libeigen3-dev libvtk9-dev nodejs npm
+)
+
 # To check the sources: format, lint, and clang for the fuzz target.
 check_packages=(clang libclang-rt-14-dev clang-format clang-tidy)
 

@@ -1,6 +1,7 @@
-// lodestone_bench: every promised figure, measured beside its peers, as Markdown.
-#include "bench/meshoptimizer_peer.h"
-#include "bench/rows.h"
+// lodestone_bench: every promised figure, peers beside us, and the micro-benchmarks, as Markdown.
+#include "bench/figures.h"
+#include "bench/machine.h"
+#include "bench/peers/process.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -8,97 +9,27 @@
 #include <fmt/core.h>
 #include <fstream>
 #include <iostream>
-#include <tbb/info.h>
+#include <sstream>
 
 namespace lodestone::bench {
 
 namespace {
 
-struct Section {
-    std::string title;
-    std::function<Result<void>(Bench&)> add;
+struct Options {
+    std::string out;
+    std::string csv;
+    std::string only;
+    std::string given;
+    std::string models = LODESTONE_SOURCE_DIR "/../shared/models";
+    std::string npm = LODESTONE_BENCH_NPM;
+    bool figures = false;
+    bool peers = false;
+    bool micro = false;
+    bool quick = false;
+    bool memory_child = false;
+
+    bool everything() const { return !figures && !peers && !micro; }
 };
-
-// A section over one scene; without the scene it is left out and said so.
-Section sceneSection(const std::string& title,
-                     const std::function<Result<ScenePtr>(Inputs&)>& find,
-                     const std::function<Result<void>(Bench&, const ScenePtr&)>& add) {
-    return {title, [=](Bench& bench) -> Result<void> {
-                const Result<ScenePtr> scene = find(bench.inputs);
-                if (!scene)
-                    return tl::unexpected(scene.error());
-                if (*scene)
-                    return add(bench, *scene);
-                bench.table.tell("not measured: no such input", "");
-                return {};
-            }};
-}
-
-using AddScene = std::function<Result<void>(Bench&, const ScenePtr&, SketchInput)>;
-
-// Rows for a scene of ours and, if a folder is given, for the one of the same name in it.
-struct SceneRows {
-    const char* title;
-    const char* name;
-    SketchInput ours; // what our scene is; a given one is the sketch's
-    AddScene add;
-};
-
-void addBoth(std::vector<Section>& sections, const SceneRows& rows, const std::string& given) {
-    sections.push_back(sceneSection(
-        rows.title,
-        [name = rows.name](Inputs& inputs) { return inputs.own(name); },
-        [rows](Bench& bench, const ScenePtr& scene) { return rows.add(bench, scene, rows.ours); }));
-    if (!given.empty())
-        sections.push_back(sceneSection(
-            std::string(rows.title) + " (given)",
-            [name = rows.name](Inputs& inputs) { return inputs.given(name); },
-            [rows](Bench& bench, const ScenePtr& scene) {
-                return rows.add(bench, scene, SketchInput::Same);
-            }));
-}
-
-AddScene alone(const AloneTargets& targets) {
-    return [targets](Bench& bench, const ScenePtr& scene, SketchInput input) {
-        return addAloneRows(bench, scene, targets, input);
-    };
-}
-
-AddScene instanced(const InstancedTargets& targets) {
-    return [targets](Bench& bench, const ScenePtr& scene, SketchInput input) {
-        return addInstancedRows(bench, scene, targets, input);
-    };
-}
-
-std::vector<Section> allSections(const std::string& given) {
-    const auto equal = [](Bench& bench, const ScenePtr& scene, SketchInput) {
-        return addEqualRows(bench, scene);
-    };
-    const auto cards = [](Bench& bench, const ScenePtr& scene, SketchInput) {
-        return addCardRows(bench, scene);
-    };
-    constexpr SketchInput kSame = SketchInput::Same;
-    constexpr SketchInput kAnother = SketchInput::Another;
-    std::vector<Section> sections{sceneSection(
-        "Stanford bunny",
-        [](Inputs& inputs) { return inputs.stanfordBunny(); },
-        [](Bench& bench, const ScenePtr& scene) {
-            return addAloneRows(bench, scene, bunnyTargets(), kSame);
-        })};
-    addBoth(sections, {"Our bunny", "bunny", kAnother, alone(bunnyTargets())}, "");
-    for (const SceneRows& rows :
-         {SceneRows{"Displaced sphere", "sphere", kSame, alone(sphereTargets())},
-          SceneRows{"Maple", "maple", kAnother, instanced(mapleTargets())},
-          SceneRows{"Village", "village", kAnother, instanced(villageTargets())},
-          SceneRows{"Maple at equal triangles", "maple", kAnother, equal},
-          SceneRows{"Village at equal triangles", "village", kAnother, equal},
-          SceneRows{"Leaf cards", "cards", kSame, cards}})
-        addBoth(sections, rows, given);
-    sections.push_back({"Read-out", addReadOutRows});
-    sections.push_back({"Files and schedules", addFileRows});
-    sections.push_back({"Memory", addMemoryRows});
-    return sections;
-}
 
 std::string lowered(std::string text) {
     std::ranges::transform(text, text.begin(), [](unsigned char letter) {
@@ -107,64 +38,147 @@ std::string lowered(std::string text) {
     return text;
 }
 
-struct Options {
-    std::string out;
-    std::string only;
-    std::string given;
-    std::string models = LODESTONE_SOURCE_DIR "/../shared/models";
-    bool quick = false;
-    bool memory_child = false;
+// The parts of the report; what a part's summary says comes before all tables.
+struct Report {
+    std::string summary;
+    std::string tables;
+    int exit_code = 0;
 };
 
+void addFiguresPart(Report& report,
+                    const Options& options,
+                    Inputs& inputs,
+                    const TitleFilter& wanted) {
+    std::ostringstream text;
+    Bench bench{inputs, Table(text), options.quick ? 1 : 5};
+    const int code = addFigures(bench, options.given, wanted);
+    report.exit_code = std::max(report.exit_code, code);
+    report.summary += "\n### Promised figures\n\n" + bench.table.summary();
+    report.tables +=
+        fmt::format("\n## Promised figures\n\n"
+                    "CPU seconds on one thread, median (min–max) of {} rounds in which what is "
+                    "compared takes turns; ratios are medians over the rounds. Read-outs are wall "
+                    "time on all threads. Distances are % of the diagonal, 300,000 samples a side. "
+                    "\"Sketch\": an early sketch of this design on its own machine, made "
+                    "comparable by what meshoptimizer takes on both.\n",
+                    bench.rounds) +
+        text.str();
+}
+
+std::string absentText(const PeerRun& run, const MeshPeers& meshes, const FilePeers& files) {
+    std::string text;
+    for (const std::vector<AbsentPeer>* absent : {&meshes.absent, &files.absent})
+        for (const AbsentPeer& peer : *absent)
+            text += fmt::format("- not measured: {}: {}\n", peer.name, peer.why);
+    for (const std::string& input : run.absent)
+        text += fmt::format("- not measured: the input {}: no such model here\n", input);
+    return text;
+}
+
+std::string peersIntroduction(const PeerBench& bench) {
+    return fmt::format(
+        "\n## Peers\n\n"
+        "Every mesh to {:.0f} % of its triangles by the peer; ours to as many of the scene's. "
+        "CPU seconds, median (min–max) of {} rounds in which all take turns; ours: whole sequence, "
+        "schedule and read-out on one thread; peers: the call alone, or a process from file to "
+        "file "
+        "against our process (\"process\"). \"× ours\": the peer over ours at as many triangles, "
+        "**bold** where the peer is better by more than 1 %. Bytes: written by our exporter, but "
+        "for processes, which write their own file. Distance: two-sided, {} samples a side, % of "
+        "the diagonal. FLIP: mean over 12 cameras, {} px square, lit. Peers that take positions "
+        "alone get each attribute of the nearest stored vertex.\n",
+        100.0 * kPeerRatio,
+        bench.rounds,
+        bench.samples,
+        bench.picture_px);
+}
+
+void addPeersPart(Report& report,
+                  const Options& options,
+                  Inputs& inputs,
+                  const TitleFilter& wanted) {
+    MeshPeers meshes = meshPeers(options.npm);
+    FilePeers files = filePeers(options.npm, kPeerRatio);
+    PeerBench bench;
+    bench.meshes = meshes.present;
+    bench.files = files.present;
+    bench.lodestone = LODESTONE_BINARY;
+    if (options.quick) {
+        bench.rounds = 1;
+        bench.samples = 100'000;
+        bench.picture_px = 128;
+    }
+    PeerRun run;
+    const int code =
+        addPeers(run, bench, inputs, options.quick ? PeerInputs::Few : PeerInputs::All, wanted);
+    report.exit_code = std::max(report.exit_code, code);
+    if (!run.board.empty())
+        report.summary += "\n### Peers\n\n" + run.board.summary();
+    report.summary += "\n" + absentText(run, meshes, files);
+    report.tables += peersIntroduction(bench);
+    for (const std::string& table : run.tables)
+        report.tables += table;
+    if (options.csv.empty())
+        return;
+    std::ofstream csv(options.csv);
+    csv << run.board.csv();
+    if (!csv.flush()) {
+        std::cerr << "lodestone_bench: " << options.csv << ": cannot be written\n";
+        report.exit_code = exitCode(ErrorKind::Failed);
+    }
+}
+
+int writeReport(const Options& options, const Report& report, const std::string& machine) {
+    const std::string text = fmt::format("# Results\n\n"
+                                         "Written by `lodestone_bench`{} at commit {}.\n\n"
+                                         "{}\n## Summary\n{}{}",
+                                         options.quick ? " --quick" : "",
+                                         commitText(),
+                                         machine,
+                                         report.summary,
+                                         report.tables);
+    if (options.out.empty()) {
+        std::cout << text;
+        return report.exit_code;
+    }
+    std::ofstream file(options.out);
+    file << text;
+    if (file.flush())
+        return report.exit_code;
+    std::cerr << "lodestone_bench: " << options.out << ": cannot be written\n";
+    return exitCode(ErrorKind::Failed);
+}
+
 int run(const Options& options) {
-    std::ofstream file;
-    if (!options.out.empty()) {
-        file.open(options.out);
-        if (!file) {
-            std::cerr << "lodestone_bench: " << options.out << ": cannot be written\n";
-            return exitCode(ErrorKind::Failed);
-        }
-    }
-    Bench bench{Inputs(options.models, options.given),
-                Table(options.out.empty() ? std::cout : file),
-                options.quick ? 3 : 5};
-    (options.out.empty() ? std::cout : file)
-        << "# Figures\n\n"
-        << fmt::format(
-               "Times are CPU seconds on one thread, median (min–max) of {} rounds in which "
-               "what is compared takes turns; ratios are medians over the rounds. Read-outs "
-               "are wall time on two threads. Distances are % of the diagonal, 300,000 "
-               "samples a side. Hardware threads: {}. Peer: {}.\n",
-               bench.rounds,
-               tbb::info::default_concurrency(),
-               meshoptimizerName());
-    int code = 0;
-    for (const Section& section : allSections(options.given)) {
-        if (lowered(section.title).find(lowered(options.only)) == std::string::npos)
-            continue;
-        std::cerr << section.title << '\n';
-        bench.table.heading(section.title);
-        const Result<void> added = section.add(bench);
-        if (!added) {
-            std::cerr << "lodestone_bench: " << section.title << ": " << added.error().message
-                      << '\n';
-            code = exitCode(added.error().kind);
-        }
-    }
-    bench.table.finish();
-    return code;
+    const std::string machine = machineText();
+    const TitleFilter wanted = [only = lowered(options.only)](const std::string& title) {
+        return lowered(title).find(only) != std::string::npos;
+    };
+    Inputs inputs(options.models, options.given);
+    Report report;
+    if (options.figures || options.everything())
+        addFiguresPart(report, options, inputs, wanted);
+    if (options.peers || options.everything())
+        addPeersPart(report, options, inputs, wanted);
+    return writeReport(options, report, machine);
 }
 
 int parseAndRun(int argc, char** argv) {
     Options options;
-    CLI::App app("Re-runs every promised figure beside its peers; Markdown on stdout.");
+    CLI::App app("Measures every promised figure, peers beside us and the hot paths; Markdown.");
     app.add_option("--out", options.out, "write to this file instead of stdout");
-    app.add_option("--only", options.only, "only sections whose title contains this");
+    app.add_option("--csv", options.csv, "also write the peers' rows to this file");
+    app.add_option("--only", options.only, "only figures and inputs whose title contains this");
     app.add_option("--inputs",
                    options.given,
-                   "folder whose maple, village, sphere and cards .glb are measured too");
+                   "folder whose maple, village, sphere and cards .glb get figures too");
     app.add_option("--models", options.models, "folder of real models")->capture_default_str();
-    app.add_flag("--quick", options.quick, "3 rounds instead of 5");
+    app.add_option("--npm", options.npm, "node_modules with the peers of npm")
+        ->capture_default_str();
+    app.add_flag("--figures", options.figures, "the promised figures (default: every part)");
+    app.add_flag("--peers", options.peers, "peers beside us (default: every part)");
+    app.add_flag("--micro", options.micro, "the micro-benchmarks (default: every part)");
+    app.add_flag("--quick", options.quick, "one round instead of five, fewer inputs");
     app.add_flag("--memory-child", options.memory_child)->group(""); // how it starts itself
     CLI11_PARSE(app, argc, argv);
     return options.memory_child ? runMemoryChild() : run(options);

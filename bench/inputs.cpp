@@ -14,6 +14,8 @@ Result<ScenePtr> Inputs::own(const std::string& name) {
         return scene;
     if (name == "sphere")
         return scene = displacedSphere(289);
+    if (name == "small sphere")
+        return scene = displacedSphere(100);
     if (name == "cards")
         return scene = leafCards();
     Result<ScenePtr> generated = generateScene(name);
@@ -27,8 +29,12 @@ Result<ScenePtr> Inputs::given(const std::string& name) {
     return given_.empty() ? ScenePtr() : readOnce(path);
 }
 
+Result<ScenePtr> Inputs::model(const std::filesystem::path& path) {
+    return readOnce(models_ / path);
+}
+
 Result<ScenePtr> Inputs::stanfordBunny() {
-    return readOnce(models_ / "meshes" / "bun_zipper" / "bun_zipper.ply");
+    return model("meshes/bun_zipper/bun_zipper.ply");
 }
 
 Result<ScenePtr> Inputs::readOnce(const std::filesystem::path& path) {

@@ -15,10 +15,12 @@ public:
     // well, empty: none.
     Inputs(std::filesystem::path models, std::filesystem::path given);
 
-    // Generated: "bunny", "maple", "village", "sphere", "cards".
+    // Generated: "bunny", "chair", "maple", "village", "sphere", "small sphere", "cards".
     Result<ScenePtr> own(const std::string& name);
     // GIVEN/NAME.glb; null where there is none.
     Result<ScenePtr> given(const std::string& name);
+    // A real model by its path in their folder; null where there is none.
+    Result<ScenePtr> model(const std::filesystem::path& path);
     // The Stanford bunny; null without the models.
     Result<ScenePtr> stanfordBunny();
 

@@ -1,15 +1,11 @@
 #pragma once
 // Debian's meshoptimizer, as a user would call it.
+#include "bench/peers/peer.h"
 #include "scene/lod.h"
 
 namespace lodestone::bench {
 
 std::string meshoptimizerName(); // with its version
-
-enum class Welding : std::uint8_t {
-    AsStored,  // vertices as the file has them: seams of attributes hold it up
-    Positions, // equal positions are one vertex
-};
 
 // The indices of `ratio` of a geometry's triangles, or of as many as it gets stuck at. No limit on
 // the error. geometry: a triangle list.

@@ -8,7 +8,7 @@
 namespace lodestone::bench {
 
 struct Bench {
-    Inputs inputs;
+    Inputs& inputs;
     Table table;
     int rounds = 5; // of things timed in turns
 };

@@ -1,37 +1,13 @@
+#include "bench/peers/process.h"
 #include "bench/rows.h"
 #include "scene/expand.h"
 #include "scene/import.h"
 
 #include <fmt/core.h>
-#include <unistd.h>
 
 namespace lodestone::bench {
 
 namespace {
-
-// A folder that goes when the guard does.
-class ScratchFolder {
-public:
-    ScratchFolder()
-        : path_(std::filesystem::temp_directory_path() /
-                ("lodestone-bench-" + std::to_string(getpid()))) {
-        std::error_code ignored; // what cannot be made shows when it is written to
-        std::filesystem::create_directories(path_, ignored);
-    }
-
-    ~ScratchFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-    const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
 
 Result<std::uint64_t>
 writtenBytes(const Scene& scene, const Lod& lod, const std::filesystem::path& path) {

@@ -6,7 +6,7 @@ namespace lodestone::bench {
 
 void Table::heading(const std::string& title) {
     title_ = title;
-    *out_ << "\n## " << title << "\n\n"
+    *out_ << "\n### " << title << "\n\n"
           << "| what | measured | against | target | ratio | met |\n"
           << "|---|---|---|---|---|---|\n"
           << std::flush;
@@ -36,12 +36,12 @@ void Table::add(const Figure& figure) {
           << std::flush;
 }
 
-void Table::finish() const {
-    *out_ << fmt::format(
-        "\n{} of {} targets met.\n", met_, static_cast<std::size_t>(met_) + missed_.size());
+std::string Table::summary() const {
+    std::string text = fmt::format(
+        "{} of {} targets met.\n", met_, static_cast<std::size_t>(met_) + missed_.size());
     for (const std::string& line : missed_)
-        *out_ << "- missed: " << line << '\n';
-    *out_ << std::flush;
+        text += "- missed: " + line + '\n';
+    return text;
 }
 
 void Table::tell(const std::string& what, const std::string& measured, const std::string& against) {

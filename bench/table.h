@@ -24,7 +24,7 @@ public:
 
     void heading(const std::string& title);
     void add(const Figure& figure);
-    void finish() const; // how many were met, which were missed
+    std::string summary() const; // how many were met, which were missed
 
     // For information.
     void

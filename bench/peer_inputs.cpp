@@ -1,0 +1,88 @@
+// Which scenes we are measured on beside peers.
+#include "bench/figures.h"
+
+#include <array>
+#include <iostream>
+
+namespace lodestone::bench {
+
+namespace {
+
+enum class From : std::uint8_t { Generator, Model };
+
+struct PeerInputFile {
+    const char* title;
+    From from;
+    const char* name; // of the generator, or path in the folder of models
+    bool quick;       // also in a quick run
+};
+
+// Single meshes, then instanced scenes, then textured ones.
+constexpr std::array kInputs{
+    PeerInputFile{"Stanford bunny", From::Model, "meshes/bun_zipper/bun_zipper.ply", true},
+    PeerInputFile{"Our bunny", From::Generator, "bunny", false},
+    PeerInputFile{"Small displaced sphere", From::Generator, "small sphere", false},
+    PeerInputFile{"Horse", From::Model, "meshes/horse/horse.ply", false},
+    PeerInputFile{"Armadillo", From::Model, "meshes/armadillo/armadillo.obj", false},
+    PeerInputFile{"Fandisk", From::Model, "meshes/fandisk/fandisk.obj", true},
+    PeerInputFile{"Chair", From::Generator, "chair", true},
+    PeerInputFile{"Maple", From::Generator, "maple", true},
+    PeerInputFile{"Village", From::Generator, "village", true},
+    PeerInputFile{
+        "Engine", From::Model, "instanced/2CylinderEngine-glb/2CylinderEngine.glb", false},
+    PeerInputFile{"Fire alarms",
+                  From::Model,
+                  "instanced/WestRiverSideHospital-fireAlarms/fireAlarms.gltf",
+                  false},
+    PeerInputFile{"Duplex", From::Model, "instanced/duplex/scene.gltf", false},
+    PeerInputFile{"Castle", From::Model, "instanced/castle/castle.gltf", false},
+    PeerInputFile{"Duck", From::Model, "textured/Duck/Duck.glb", false},
+    PeerInputFile{"Damaged helmet", From::Model, "textured/DamagedHelmet/DamagedHelmet.glb", true},
+    PeerInputFile{
+        "Barn lamp", From::Model, "textured/anisotropy-barn-lamp/AnisotropyBarnLamp.gltf", false}};
+
+Result<ScenePtr> sceneOf(const PeerInputFile& input, Inputs& inputs) {
+    return input.from == From::Model ? inputs.model(input.name) : inputs.own(input.name);
+}
+
+// Null where the input is absent.
+Result<std::optional<PeerSheet>>
+sheetOf(const PeerInputFile& input, const PeerBench& bench, Inputs& inputs) {
+    const Result<ScenePtr> scene = sceneOf(input, inputs);
+    if (!scene)
+        return tl::unexpected(scene.error());
+    if (!*scene)
+        return std::nullopt;
+    Result<PeerSheet> sheet = measurePeers(bench, input.title, *scene);
+    if (!sheet)
+        return tl::unexpected(sheet.error());
+    return std::move(*sheet);
+}
+
+} // namespace
+
+int addPeers(PeerRun& run,
+             const PeerBench& bench,
+             Inputs& inputs,
+             PeerInputs which,
+             const TitleFilter& wanted) {
+    int code = 0;
+    for (const PeerInputFile& input : kInputs) {
+        if (!wanted(input.title) || (which == PeerInputs::Few && !input.quick))
+            continue;
+        std::cerr << "peers: " << input.title << '\n';
+        Result<std::optional<PeerSheet>> sheet = sheetOf(input, bench, inputs);
+        if (!sheet) {
+            std::cerr << "lodestone_bench: peers: " << sheet.error().message << '\n';
+            code = exitCode(sheet.error().kind);
+        } else if (*sheet) {
+            run.tables.push_back("\n### " + (*sheet)->input + "\n\n" + PeerBoard::table(**sheet));
+            run.board.add(std::move(**sheet));
+        } else {
+            run.absent.emplace_back(input.title);
+        }
+    }
+    return code;
+}
+
+} // namespace lodestone::bench
