@@ -63,9 +63,17 @@ struct SharedMesh {
     Box box; // before centring
 };
 
+// A piece in the frame.
+struct StoredMesh {
+    Mesh mesh;
+    std::uint32_t piece = 0;
+    std::vector<std::uint32_t> kept; // triangles of the piece's geometry; empty: all of them
+};
+
 // One drawing of a shared mesh.
 struct Placement {
     const SharedMesh* shared = nullptr;
+    std::uint32_t piece = 0;
     glm::dmat4x3 to_frame{1.0};
     glm::dmat4x3 to_mesh{1.0};
     double mesh_per_frame = 1.0; // the longest that a unit of the frame gets in the mesh
@@ -152,7 +160,7 @@ void boundPlacement(const RTCBoundsFunctionArguments* arguments) {
 struct ClosestSurface::Tree {
     DeviceHandle device;
     SceneHandle top; // geometries 0..stored-1: meshes in the frame; then one with all placements
-    std::vector<Mesh> stored;
+    std::vector<StoredMesh> stored;
     std::unordered_map<const Geometry*, SharedMesh> shared;
     std::vector<Placement> placements;
 
@@ -163,13 +171,13 @@ struct ClosestSurface::Tree {
                               const JobContext& job) const;
     Result<void> commit(RTCScene scene, const JobContext& job) const;
     Result<void> buildShared(const Geometry& geometry, SharedMesh& mesh, const JobContext& job);
-    Result<void> addPiece(const SurfacePiece& piece, const JobContext& job);
-    Result<void> addStored(const SurfacePiece& piece, const JobContext& job);
+    Result<void> addPiece(const SurfacePiece& piece, std::uint32_t number, const JobContext& job);
+    Result<void> addStored(const SurfacePiece& piece, std::uint32_t number, const JobContext& job);
     void attachPlacements();
 
     // part: index into stored, or behind those into placements.
     Triangle triangle(std::uint32_t part, std::uint32_t index) const {
-        return part < stored.size() ? stored[part].triangle(index)
+        return part < stored.size() ? stored[part].mesh.triangle(index)
                                     : placements[part - stored.size()].triangle(index);
     }
 };
@@ -238,13 +246,16 @@ Result<void> ClosestSurface::Tree::buildShared(const Geometry& geometry,
 }
 
 // Places a shared geometry, or stores the piece on its own.
-Result<void> ClosestSurface::Tree::addPiece(const SurfacePiece& piece, const JobContext& job) {
+Result<void> ClosestSurface::Tree::addPiece(const SurfacePiece& piece,
+                                            std::uint32_t number,
+                                            const JobContext& job) {
     const auto found = shared.find(piece.geometry);
     if (found == shared.end())
-        return addStored(piece, job);
+        return addStored(piece, number, job);
     const SharedMesh& mesh = found->second;
     Placement placement;
     placement.shared = &mesh;
+    placement.piece = number;
     placement.box = transformed(mesh.box, piece.to_frame);
     const glm::dmat3 linear(piece.to_frame);
     const glm::dmat3 inverse = glm::inverse(linear);
@@ -254,7 +265,7 @@ Result<void> ClosestSurface::Tree::addPiece(const SurfacePiece& piece, const Job
     // Negated so that what is not a number is stored, too.
     if (!(stretch <= kMaxStretch && mesh_extent <= std::numeric_limits<float>::max()) ||
         isFar(placement.box.min) || isFar(placement.box.max))
-        return addStored(piece, job);
+        return addStored(piece, number, job);
     placement.to_frame = glm::dmat4x3(piece.to_frame);
     placement.to_frame[3] += linear * mesh.box.center();
     placement.to_mesh =
@@ -264,7 +275,9 @@ Result<void> ClosestSurface::Tree::addPiece(const SurfacePiece& piece, const Job
 }
 
 // Transforms a piece into the frame and leaves out what reaches too far.
-Result<void> ClosestSurface::Tree::addStored(const SurfacePiece& piece, const JobContext& job) {
+Result<void> ClosestSurface::Tree::addStored(const SurfacePiece& piece,
+                                             std::uint32_t number,
+                                             const JobContext& job) {
     const Geometry& geometry = *piece.geometry;
     std::vector<glm::vec3> positions(geometry.positions.size());
     std::vector<bool> far(positions.size());
@@ -275,17 +288,22 @@ Result<void> ClosestSurface::Tree::addStored(const SurfacePiece& piece, const Jo
     }
     std::vector<std::uint32_t> indices;
     indices.reserve(geometry.indices.size());
-    for (std::size_t t = 0; t < geometry.triangleCount(); ++t) {
-        const std::uint32_t* corners = geometry.indices.data() + 3 * t;
-        if (!far[corners[0]] && !far[corners[1]] && !far[corners[2]])
-            indices.insert(indices.end(), corners, corners + 3);
+    std::vector<std::uint32_t> kept;
+    for (std::uint32_t t = 0; t < geometry.triangleCount(); ++t) {
+        const std::uint32_t* corners = geometry.indices.data() + 3 * std::size_t{t};
+        if (far[corners[0]] || far[corners[1]] || far[corners[2]])
+            continue;
+        indices.insert(indices.end(), corners, corners + 3);
+        kept.push_back(t);
     }
     if (indices.empty())
         return {};
     const Result<Mesh> mesh = addTriangles(top.get(), positions, indices, job);
     if (!mesh)
         return tl::unexpected(mesh.error());
-    stored.push_back(*mesh);
+    if (kept.size() == geometry.triangleCount())
+        kept.clear();
+    stored.push_back({*mesh, number, std::move(kept)});
     return {};
 }
 
@@ -314,10 +332,10 @@ Result<ClosestSurface> ClosestSurface::build(std::span<const SurfacePiece> piece
     for (auto& [geometry, mesh] : tree->shared)
         if (const Result<void> ok = tree->buildShared(*geometry, mesh, job); !ok)
             return tl::unexpected(ok.error());
-    for (const SurfacePiece& piece : pieces) {
+    for (std::uint32_t number = 0; number < pieces.size(); ++number) {
         if (job.stopRequested())
             return cancelled();
-        if (const Result<void> ok = tree->addPiece(piece, job); !ok)
+        if (const Result<void> ok = tree->addPiece(pieces[number], number, job); !ok)
             return tl::unexpected(ok.error());
     }
     if (tree->stored.empty() && tree->placements.empty())
@@ -406,7 +424,17 @@ struct ClosestSurface::Search {
     }
 };
 
-double ClosestSurface::Cursor::distance(const glm::dvec3& point) {
+Triangle ClosestSurface::triangle(const Hit& hit) const {
+    return tree_->triangle(hit.part, hit.triangle);
+}
+
+std::size_t ClosestSurface::geometryTriangle(const Hit& hit) const {
+    if (hit.part >= tree_->stored.size() || tree_->stored[hit.part].kept.empty())
+        return hit.triangle;
+    return tree_->stored[hit.part].kept[hit.triangle];
+}
+
+ClosestSurface::Hit ClosestSurface::Cursor::closest(const glm::dvec3& point) {
     Search search;
     search.tree = surface_->tree_.get();
     search.point = point;
@@ -419,7 +447,12 @@ double ClosestSurface::Cursor::distance(const glm::dvec3& point) {
     rtcPointQuery(search.tree->top.get(), &query, &context, Search::visit, &search);
     last_part_ = search.best_part;
     last_triangle_ = search.best_triangle;
-    return std::sqrt(search.best2);
+    const auto& stored = search.tree->stored;
+    const std::uint32_t part = search.best_part;
+    const std::uint32_t piece = part < stored.size()
+                                    ? stored[part].piece
+                                    : search.tree->placements[part - stored.size()].piece;
+    return {std::sqrt(search.best2), piece, part, search.best_triangle};
 }
 
 } // namespace lodestone

@@ -22,6 +22,18 @@ public:
     ClosestSurface& operator=(ClosestSurface&&) noexcept;
     ~ClosestSurface();
 
+    // A triangle of the surface, nearest to some point.
+    struct Hit {
+        double distance = 0.0;      // of that point, in the frame
+        std::uint32_t piece = 0;    // of those given to build
+        std::uint32_t part = 0;     // inside this class
+        std::uint32_t triangle = 0; // of the part
+    };
+
+    Triangle triangle(const Hit& hit) const; // in the frame, as it is measured to
+    // Of the piece's geometry.
+    std::size_t geometryTriangle(const Hit& hit) const;
+
     // One thread's chain of queries. The triangle found last bounds the next search, so points in
     // spatial order are fast; the answers do not depend on the order.
     class Cursor {
@@ -30,7 +42,7 @@ public:
 
         // point and result in the frame of the pieces; not farther out than kFarLimit.
         // Exact to double for instances, to float of the frame for pieces stored on their own.
-        double distance(const glm::dvec3& point);
+        Hit closest(const glm::dvec3& point);
 
     private:
         const ClosestSurface* surface_;

@@ -29,10 +29,10 @@ struct LodView {
     const Lod* lod = nullptr;
 };
 
-// Two-sided sampled surface distance in world space (Metro: Cignoni, Rocchini, Scopigno 1998); all
-// vertices join in for the maxima, up to `samples`. Instances are not expanded in memory (Embree
-// instancing). Deterministic for any number of threads. Errors: BadInput if a side has no triangle;
-// Cancelled. Any thread; O(samples log triangles).
+// Two-sided surface distance in world space: mean and rms from samples (Metro: Cignoni, Rocchini,
+// Scopigno 1998), maxima by branch and bound. Instances are not expanded in memory. Deterministic
+// for any number of threads. Errors: BadInput if a side has no triangle; Usage for options;
+// Cancelled. Any thread, parallel; O((samples + instanced triangles) log triangles).
 Result<Distance> measureDistance(const LodView& a,
                                  const LodView& b,
                                  const DistanceOptions& options,

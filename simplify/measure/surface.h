@@ -39,6 +39,11 @@ bool isFar(const glm::dvec3& point);     // beyond kFarLimit
 bool isFar(const Triangle& triangle);    // any corner
 double areaOf(const Triangle& triangle); // 0 for far triangles: they are not part of the surface
 
+// Barycentric weights of the triangle's point that is closest to a point; in [0, 1], sum 1. The
+// triangle may have collapsed to a segment or a point.
+glm::dvec3 closestWeights(const glm::dvec3& point, const Triangle& triangle);
+glm::dvec3 closestPoint(const glm::dvec3& point, const Triangle& triangle);
+
 // Squared distance of a point to a triangle, which may have collapsed to a segment or a point.
 double squaredDistance(const glm::dvec3& point, const Triangle& triangle);
 

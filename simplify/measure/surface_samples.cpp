@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <tbb/parallel_for.h>
-#include <unordered_map>
 
 namespace lodestone {
 
@@ -24,10 +23,14 @@ double uniform(std::uint64_t seed, std::uint64_t sample, std::uint64_t dimension
     return static_cast<double>(mixed(mixed(seed) + 3 * sample + dimension) >> 11) * 0x1p-53;
 }
 
-// Uniform over the triangle's area.
-glm::dvec3 pointIn(const Triangle& triangle, double u, double v) {
+// Barycentric weights, uniform over a triangle's area.
+glm::dvec3 weightsAt(double u, double v) {
     const double root = std::sqrt(u);
-    return triangle[0] * (1.0 - root) + triangle[1] * (root * (1.0 - v)) + triangle[2] * (root * v);
+    return {1.0 - root, root * (1.0 - v), root * v};
+}
+
+glm::dvec3 pointAt(const Triangle& triangle, const glm::dvec3& weights) {
+    return triangle[0] * weights.x + triangle[1] * weights.y + triangle[2] * weights.z;
 }
 
 } // namespace
@@ -60,7 +63,7 @@ Result<SurfaceSampler> SurfaceSampler::build(std::span<const SurfacePiece> piece
 }
 
 void SurfaceSampler::visit(const Request& request,
-                           const std::function<void(const glm::dvec3&)>& visit) const {
+                           const std::function<void(const SurfaceSample&)>& visit) const {
     const double per_sample = area() / static_cast<double>(request.count);
     const auto area_at = [&](std::uint64_t sample) {
         return (static_cast<double>(sample) + uniform(request.seed, sample, 0)) * per_sample;
@@ -78,39 +81,15 @@ void SurfaceSampler::visit(const Request& request,
         for (std::size_t t = patch.first_triangle; t < patch.last_triangle; ++t) {
             const Triangle triangle = piece.triangle(t);
             reached += areaOf(triangle);
-            for (; sample < request.end && area_at(sample) < reached; ++sample)
-                visit(pointIn(
-                    triangle, uniform(request.seed, sample, 1), uniform(request.seed, sample, 2)));
+            for (; sample < request.end && area_at(sample) < reached; ++sample) {
+                const glm::dvec3 weights =
+                    weightsAt(uniform(request.seed, sample, 1), uniform(request.seed, sample, 2));
+                visit({pointAt(triangle, weights), patch.piece, t, weights});
+            }
             if (sample == request.end)
                 return;
         }
     }
-}
-
-SurfaceVertices::SurfaceVertices(std::span<const SurfacePiece> pieces) : pieces_(pieces) {
-    std::unordered_map<const Geometry*, std::shared_ptr<const std::vector<std::uint32_t>>> known;
-    first_.assign(1, 0);
-    for (const SurfacePiece& piece : pieces) {
-        auto& used = known[piece.geometry];
-        if (!used) {
-            std::vector<bool> referenced(piece.geometry->positions.size());
-            for (const std::uint32_t index : piece.geometry->indices)
-                referenced[index] = true;
-            std::vector<std::uint32_t> vertices;
-            for (std::uint32_t v = 0; v < referenced.size(); ++v)
-                if (referenced[v])
-                    vertices.push_back(v);
-            used = std::make_shared<const std::vector<std::uint32_t>>(std::move(vertices));
-        }
-        used_.push_back(used);
-        first_.push_back(first_.back() + used->size());
-    }
-}
-
-glm::dvec3 SurfaceVertices::at(std::uint64_t index) const {
-    const auto after = std::ranges::upper_bound(first_, index);
-    const auto piece = static_cast<std::size_t>(after - first_.begin()) - 1;
-    return pieces_[piece].corner((*used_[piece])[index - first_[piece]]);
 }
 
 } // namespace lodestone

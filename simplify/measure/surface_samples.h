@@ -7,6 +7,13 @@
 
 namespace lodestone {
 
+struct SurfaceSample {
+    glm::dvec3 point{0.0};   // in the frame
+    std::uint32_t piece = 0; // of those given to build
+    std::size_t triangle = 0;
+    glm::dvec3 weights{0.0}; // barycentric, of the triangle's corners
+};
+
 class SurfaceSampler {
 public:
     // pieces must outlive the sampler. O(instanced triangles), parallel; memory 24 bytes per piece
@@ -21,9 +28,10 @@ public:
         std::uint64_t seed = 1;
     };
 
-    // Calls visit(point in the frame) for each sample of the range, in storage order. A sample that
-    // rounding puts beyond the last triangle is not visited.
-    void visit(const Request& request, const std::function<void(const glm::dvec3&)>& visit) const;
+    // Calls visit(sample) for each sample of the range, in storage order. A sample that rounding
+    // puts beyond the last triangle is not visited.
+    void visit(const Request& request,
+               const std::function<void(const SurfaceSample&)>& visit) const;
 
     double area() const { return area_before_.back(); }
 
@@ -38,22 +46,6 @@ private:
     std::span<const SurfacePiece> pieces_;
     std::vector<Patch> patches_;
     std::vector<double> area_before_; // [patches + 1] running sum
-};
-
-// The vertices that triangles use, of all pieces, numbered in order.
-class SurfaceVertices {
-public:
-    // pieces must outlive it. O(distinct indices + pieces).
-    explicit SurfaceVertices(std::span<const SurfacePiece> pieces);
-
-    std::uint64_t size() const { return first_.back(); }
-
-    glm::dvec3 at(std::uint64_t index) const; // in the frame; O(log pieces)
-
-private:
-    std::span<const SurfacePiece> pieces_;
-    std::vector<std::shared_ptr<const std::vector<std::uint32_t>>> used_; // [pieces]
-    std::vector<std::uint64_t> first_;                                    // [pieces + 1]
 };
 
 } // namespace lodestone

@@ -2,6 +2,7 @@
 #include "simplify/measure/distance.h"
 #include "simplify/measure/surface_samples.h"
 
+#include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 #include <random>
@@ -114,7 +115,8 @@ void expectBruteForceDistances(const Scene& scene, double tolerance) {
         const double spread = i % 10 == 0 ? 50.0 : 1.0; // some from far away
         const glm::dvec3 point =
             spread * glm::dvec3(inside(random), inside(random), inside(random));
-        EXPECT_NEAR(cursor.distance(point), bruteForce(pieces, point), tolerance) << "point " << i;
+        EXPECT_NEAR(cursor.closest(point).distance, bruteForce(pieces, point), tolerance)
+            << "point " << i;
     }
 }
 
@@ -153,6 +155,41 @@ TEST(Distance, MaximumComesFromTheSideThatHasMore) {
     // Half of b lies on a, the other half 3..4 away from it.
     EXPECT_NEAR(distance->b_to_a_mean, 100.0 * 0.5 * 3.5 / std::sqrt(2.0), 0.5);
     EXPECT_EQ(distance->hausdorff, distance->b_to_a_max);
+}
+
+TEST(Distance, MaximumIsFoundInsideATriangleThatSamplesMiss) {
+    // A square over the same square with a hole, 0.01 wide, at none of the two large triangles'
+    // corners or middles.
+    constexpr int kCells = 100;
+    const auto holed = std::make_shared<Geometry>();
+    for (int y = 0; y <= kCells; ++y)
+        for (int x = 0; x <= kCells; ++x)
+            holed->positions.emplace_back(
+                static_cast<float>(x) / kCells, static_cast<float>(y) / kCells, 0.0f);
+    const auto center = static_cast<std::uint32_t>(37 * (kCells + 1) + 71);
+    for (std::uint32_t y = 0; y < kCells; ++y)
+        for (std::uint32_t x = 0; x < kCells; ++x) {
+            const std::uint32_t at = y * (kCells + 1) + x;
+            const std::uint32_t above = at + kCells + 1;
+            for (const std::uint32_t index : {at, at + 1, above + 1, at, above + 1, above})
+                holed->indices.push_back(index);
+        }
+    std::vector<std::uint32_t> kept;
+    for (std::size_t t = 0; t < holed->triangleCount(); ++t) {
+        const auto corners = std::span(holed->indices).subspan(3 * t, 3);
+        if (std::ranges::find(corners, center) == corners.end())
+            kept.insert(kept.end(), corners.begin(), corners.end());
+    }
+    holed->indices = kept;
+    const Scene a = makeScene(makeSquare(0.0f), {glm::dmat4(1.0)});
+    const Scene b = makeScene(holed, {glm::dmat4(1.0)});
+    const Result<Distance> distance = measure(a, b, 100);
+    ASSERT_TRUE(distance);
+    // The hole's middle is farthest from its rim, a hexagon: its nearest side is 0.01 / sqrt(2)
+    // away.
+    const double expected = 100.0 * (0.01 / std::sqrt(2.0)) / std::sqrt(2.0);
+    EXPECT_NEAR(distance->a_to_b_max, expected, 0.01 * expected);
+    EXPECT_LE(distance->a_to_b_max, expected * (1.0 + 1e-4));
 }
 
 TEST(Distance, OnlyKeptInstancesCount) {
@@ -274,11 +311,11 @@ TEST(SurfaceSampler, SpreadsSamplesByWorldAreaOfInstances) {
     int large_count = 0;
     int count = 0;
     double x_sum = 0.0;
-    sampler->visit({0, 4000, 4000, 1}, [&](const glm::dvec3& point) {
+    sampler->visit({0, 4000, 4000, 1}, [&](const SurfaceSample& sample) {
         ++count;
-        if (point.z > 0.5) {
+        if (sample.point.z > 0.5) {
             ++large_count;
-            x_sum += point.x;
+            x_sum += sample.point.x;
         }
     });
     EXPECT_EQ(count, 4000);
@@ -294,10 +331,10 @@ TEST(SurfaceSampler, BlocksGiveTheSamePointsAsOneRun) {
     ASSERT_TRUE(sampler);
     std::vector<glm::dvec3> whole;
     std::vector<glm::dvec3> blocks;
-    sampler->visit({0, 5000, 5000, 9}, [&](const glm::dvec3& p) { whole.push_back(p); });
+    sampler->visit({0, 5000, 5000, 9}, [&](const SurfaceSample& s) { whole.push_back(s.point); });
     for (std::uint64_t begin = 0; begin < 5000; begin += 100)
         sampler->visit({begin, begin + 100, 5000, 9},
-                       [&](const glm::dvec3& p) { blocks.push_back(p); });
+                       [&](const SurfaceSample& s) { blocks.push_back(s.point); });
     EXPECT_EQ(whole, blocks);
 }
 

@@ -1,0 +1,20 @@
+#pragma once
+// The greatest distance of one surface from another. Sampling alone misses the corners and ridges
+// where it is found.
+#include "simplify/measure/closest_surface.h"
+
+namespace lodestone {
+
+// All vertices and middles of triangles are measured; triangles that may hold more than what was
+// reached are split, most promising first, until none is left (the result is then within 0.2 % of
+// the true maximum) or a fixed amount of work is done. The result is the distance of an actual
+// point, so never above the maximum.
+// known: a distance already found on `from`, in the frame; the result is not below it.
+// Errors: Cancelled. Any thread; the same for any number of threads. O(triangles) queries,
+// parallel. Source: branch and bound after Guthe, Borodin, Klein 2005.
+Result<double> farthestDistance(std::span<const SurfacePiece> from,
+                                const ClosestSurface& to,
+                                double known,
+                                const JobContext& job);
+
+} // namespace lodestone
