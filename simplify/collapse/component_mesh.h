@@ -100,10 +100,16 @@ public:
         __builtin_prefetch(&rings_[v]);
         __builtin_prefetch(&points_[v]);
         __builtin_prefetch(&metrics_[v]);
+        if (!vertex_ids_.empty())
+            __builtin_prefetch(&vertex_ids_[v]);
     }
 
     void prefetchReferences(std::uint32_t v) const {
         __builtin_prefetch(refs_.data() + rings_[v].begin);
+        if (vertex_ids_.empty())
+            return;
+        __builtin_prefetch(&log_.wedge_death[vertex_ids_[v]]);
+        __builtin_prefetch(values_.data() + std::size_t{vertex_ids_[v]} * attributes_.size);
     }
 
     void prefetchFaces(std::uint32_t v) const {
@@ -160,6 +166,7 @@ private:
         std::uint32_t face = 0;
         std::uint32_t next = 0; // the corner after the vertex
         std::uint32_t last = 0; // the corner before it
+        Float3 area{};          // its normal, as long as twice its area; set by towardsVolume()
     };
 
     void buildVertices(std::size_t component);
@@ -182,7 +189,8 @@ private:
     bool folded(std::uint32_t face_a, std::uint32_t face_b) const;
     void gatherRings(std::uint32_t a, std::uint32_t b);
     bool keepsTopology(std::uint32_t a, std::uint32_t b);
-    bool staysUpright(std::span<const RingFace> ring, Float3 from, Float3 to) const;
+    Float3 towardsVolume(std::uint32_t a, std::uint32_t b, Float3 at, Float3 half);
+    bool staysUpright(std::span<const RingFace> ring, Float3 to) const;
     bool hasFace(std::span<const RingFace> ring, std::uint32_t x, std::uint32_t y) const;
 
     void mergeFaces(std::uint32_t a, std::uint32_t b);

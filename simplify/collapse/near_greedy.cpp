@@ -41,11 +41,14 @@ public:
             if (i % 1024 == 0 && !watch.goOn(mesh_, live))
                 return -1;
             prefetchAhead(i, chosen_.size(), [&](std::size_t at, auto prefetch) {
-                prefetch(chosen_[at].a);
-                prefetch(chosen_[at].b);
+                const auto [cost, a, b] = chosen_[at];
+                if (touched_[a] | touched_[b])
+                    return;
+                prefetch(a);
+                prefetch(b);
             });
             const auto [cost, a, b] = chosen_[i];
-            if (touched_[a] || touched_[b] || !mesh_.movable(a, b) ||
+            if ((touched_[a] | touched_[b]) || !mesh_.movable(a, b) ||
                 !mesh_.tryCollapse(a, b, mesh_.place(a, b), Strictness::Manifold))
                 continue;
             touched_[a] = touched_[b] = true;

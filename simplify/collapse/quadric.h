@@ -141,7 +141,7 @@ template <class T>
 struct PlacementOf {
     Vector3<T> at; // relative to the edge's midpoint
     T cost{};      // quadric error there, >= 0
-    T key{};       // what the queue orders by: cost plus a tiny preference for short edges
+    T key{};       // what the queue orders by, >= 0
 };
 
 using Placement = PlacementOf<float>;
@@ -161,10 +161,14 @@ QuadricOf<T> sumAtMiddle(const QuadricOf<T>& p, const QuadricOf<T>& q, const Vec
 // Best place for the merged vertex of an edge. half: from the midpoint to the second end.
 // Tikhonov towards the midpoint keeps flat and straight neighbourhoods well-posed; a solution
 // farther out than the edge is long falls back to the best of both ends and the middle.
+// The queue counts half of the error that the ends already have: the whole would hold regions back
+// only because they were simplified before (mean distance 5 % larger at a fifth of the faces), none
+// of it lets a region sink ever deeper (larger maximum). Short edges have a tiny preference.
 template <class T>
 PlacementOf<T> placeEdge(const QuadricOf<T>& p, const QuadricOf<T>& q, const Vector3<T>& half) {
     constexpr float kTikhonov = 1e-5f;
     constexpr float kShortEdge = 1e-7f;
+    constexpr float kForgiven = 0.5f;
     constexpr float kReach = 4.0f; // squared distance from the midpoint over |half|^2
     const T zero{};
     const T one = zero + 1.0f;
@@ -214,7 +218,8 @@ PlacementOf<T> placeEdge(const QuadricOf<T>& p, const QuadricOf<T>& q, const Vec
         }
     offer(near, x, optimal);
     best.cost = select(best.cost > zero, best.cost, zero); // also where it is not a number
-    best.key = best.cost + trace * length2 * kShortEdge;
+    const T added = best.cost - (p.c + q.c) * kForgiven;
+    best.key = select(added > zero, added, zero) + trace * length2 * kShortEdge;
     return best;
 }
 

