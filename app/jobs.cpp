@@ -1,5 +1,7 @@
 #include "app/jobs.h"
 
+#include "scene/thread_priority.h"
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -86,6 +88,7 @@ struct JobQueue::Impl {
                 JobContext context;
                 context.stop = stop;
                 context.progress = [shared](double fraction) { shared->progress = fraction; };
+                const BackgroundPriority priority;
                 shared->result = runGuarded(work, context);
                 shared->finished.store(true, std::memory_order_release);
                 bell->ring();

@@ -78,26 +78,32 @@ void putPositions(const Interleaved& out, const Geometry& geometry, const LocalF
     }
 }
 
-void uploadIndices(const Geometry& geometry, GpuGeometry& gpu) {
-    gpu.index_count = static_cast<std::uint32_t>(geometry.indices.size());
-    if (geometry.indices.empty())
-        return;
-    gpu.indices = GlBuffer::create();
-    // Not GL_ELEMENT_ARRAY_BUFFER: that would change whatever vertex array is bound.
-    glBindBuffer(GL_COPY_WRITE_BUFFER, gpu.indices.name());
-    const auto put = [&](const void* data, std::size_t size_bytes) {
-        glBufferData(
-            GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(size_bytes), data, GL_STATIC_DRAW);
-        gpu.bytes += size_bytes;
-    };
-    if (geometry.positions.size() <= 65536) {
-        const std::vector<std::uint16_t> narrow(geometry.indices.begin(), geometry.indices.end());
-        gpu.index_type = GL_UNSIGNED_SHORT;
-        put(narrow.data(), narrow.size() * sizeof(std::uint16_t));
-    } else {
-        gpu.index_type = GL_UNSIGNED_INT;
-        put(geometry.indices.data(), geometry.indices.size() * sizeof(std::uint32_t));
+template <class Index>
+std::vector<std::byte> indexBytes(const Geometry& geometry) {
+    std::vector<std::byte> bytes(geometry.indices.size() * sizeof(Index));
+    for (std::size_t at = 0; at < geometry.indices.size(); ++at) {
+        const auto index = static_cast<Index>(geometry.indices[at]);
+        std::memcpy(&bytes[at * sizeof(Index)], &index, sizeof(Index));
     }
+    return bytes;
+}
+
+void packIndices(const Geometry& geometry, PackedGeometry& packed) {
+    constexpr std::size_t kNarrowVertices = 65536;
+    packed.index_count = static_cast<std::uint32_t>(geometry.indices.size());
+    const bool narrow = geometry.positions.size() <= kNarrowVertices;
+    packed.index_type = narrow ? GL_UNSIGNED_SHORT : GL_UNSIGNED_INT;
+    packed.indices =
+        narrow ? indexBytes<std::uint16_t>(geometry) : indexBytes<std::uint32_t>(geometry);
+}
+
+GlBuffer reserveBuffer(std::size_t size_bytes) {
+    GlBuffer buffer = GlBuffer::create();
+    // Not GL_ELEMENT_ARRAY_BUFFER: that would change whatever vertex array is bound.
+    glBindBuffer(GL_COPY_WRITE_BUFFER, buffer.name());
+    glBufferData(
+        GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(size_bytes), nullptr, GL_STATIC_DRAW);
+    return buffer;
 }
 
 } // namespace
@@ -132,12 +138,12 @@ LocalFrame localFrame(const Submesh& submesh) {
 namespace {
 
 // Fills vertices and layout.
-void uploadVertices(const Geometry& geometry, const LocalFrame& frame, GpuGeometry& gpu) {
+void packVertices(const Geometry& geometry, const LocalFrame& frame, PackedGeometry& packed) {
     const Attribute* normal = usable(geometry, "NORMAL", 3);
     const Attribute* uv0 = usable(geometry, "TEXCOORD_0", 2);
     const Attribute* uv1 = usable(geometry, "TEXCOORD_1", 2);
     const Attribute* color = usable(geometry, "COLOR_0", 3);
-    VertexLayout& layout = gpu.layout;
+    VertexLayout& layout = packed.layout;
     std::size_t stride = sizeof(glm::vec3);
     const auto reserve = [&](const Attribute* attribute, Feature feature, std::size_t size_bytes) {
         const std::size_t offset = stride;
@@ -163,13 +169,8 @@ void uploadVertices(const Geometry& geometry, const LocalFrame& frame, GpuGeomet
         putFloats({bytes, stride, layout.uv1_offset}, *uv1, 2);
     if (color != nullptr)
         putColors({bytes, stride, layout.color_offset}, *color);
-
-    gpu.vertex_count = static_cast<std::uint32_t>(geometry.positions.size());
-    gpu.bytes = bytes.size();
-    gpu.vertices = GlBuffer::create();
-    glBindBuffer(GL_ARRAY_BUFFER, gpu.vertices.name());
-    glBufferData(
-        GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes.size()), bytes.data(), GL_STATIC_DRAW);
+    packed.vertices = std::move(bytes);
+    packed.vertex_count = static_cast<std::uint32_t>(geometry.positions.size());
 }
 
 } // namespace
@@ -178,27 +179,39 @@ bool lacksNormals(const Geometry& geometry, PrimitiveMode mode) {
     return mode == PrimitiveMode::Triangles && usable(geometry, "NORMAL", 3) == nullptr;
 }
 
-std::shared_ptr<const GpuGeometry>
-uploadGeometry(const GeometryPtr& source, const LocalFrame& frame, const GeometryWish& wish) {
-    auto gpu = std::make_shared<GpuGeometry>();
-    gpu->source = source;
+PackedGeometry
+packGeometry(const GeometryPtr& source, const LocalFrame& frame, PrimitiveMode mode) {
+    PackedGeometry packed;
+    packed.source = source;
     Bounds box;
     for (const glm::vec3& position : source->positions)
         box.add(glm::dvec3(position));
-    gpu->source_center = box.center();
-    const bool smooth =
-        wish.missing_normals == MissingNormals::Smooth && lacksNormals(*source, wish.mode);
+    packed.source_center = box.center();
+    const bool smooth = lacksNormals(*source, mode);
     const Geometry smoothed = smooth ? withSmoothNormals(*source) : Geometry();
     const Geometry& geometry = smooth ? smoothed : *source;
-    uploadVertices(geometry, frame, *gpu);
-    uploadIndices(geometry, *gpu);
+    packVertices(geometry, frame, packed);
+    packIndices(geometry, packed);
+    return packed;
+}
+
+std::shared_ptr<GpuGeometry> reserveGeometry(const PackedGeometry& packed) {
+    auto gpu = std::make_shared<GpuGeometry>();
+    gpu->source = packed.source;
+    gpu->source_center = packed.source_center;
+    gpu->layout = packed.layout;
+    gpu->index_type = packed.index_type;
+    gpu->index_count = packed.index_count;
+    gpu->vertex_count = packed.vertex_count;
+    gpu->vertices = reserveBuffer(packed.vertices.size());
+    if (!packed.indices.empty())
+        gpu->indices = reserveBuffer(packed.indices.size());
+    gpu->bytes = packed.vertices.size() + packed.indices.size();
     return gpu;
 }
 
-std::shared_ptr<const InstanceBuffer>
-uploadInstances(const InstanceSource& source,
-                std::shared_ptr<const std::vector<std::uint32_t>> order) {
-    auto buffer = std::make_shared<InstanceBuffer>();
+std::vector<InstanceRow> packInstances(const InstanceSource& source,
+                                       const std::vector<std::uint32_t>* order) {
     const std::size_t count = order ? order->size() : source.range.size();
     std::vector<InstanceRow> rows(count);
     const LocalFrame& local = source.local_frame;
@@ -217,14 +230,32 @@ uploadInstances(const InstanceSource& source,
             rows[i].rows[r] = is_finite ? row : glm::vec4(0.0f);
         }
     }
+    return rows;
+}
+
+std::shared_ptr<InstanceBuffer>
+reserveInstances(std::shared_ptr<const std::vector<std::uint32_t>> order, std::uint32_t count) {
+    auto buffer = std::make_shared<InstanceBuffer>();
     buffer->order = std::move(order);
-    buffer->count = static_cast<std::uint32_t>(count);
+    buffer->count = count;
     buffer->bytes = count * sizeof(InstanceRow);
-    buffer->rows = GlBuffer::create();
-    glBindBuffer(GL_ARRAY_BUFFER, buffer->rows.name());
-    glBufferData(
-        GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(buffer->bytes), rows.data(), GL_STATIC_DRAW);
+    buffer->rows = reserveBuffer(buffer->bytes);
     return buffer;
+}
+
+std::size_t copyToBuffer(const GlBuffer& buffer,
+                         std::span<const std::byte> bytes,
+                         std::size_t begin,
+                         std::size_t most) {
+    const std::size_t count = std::min(most, bytes.size() - std::min(begin, bytes.size()));
+    if (count == 0)
+        return 0;
+    glBindBuffer(GL_COPY_WRITE_BUFFER, buffer.name());
+    glBufferSubData(GL_COPY_WRITE_BUFFER,
+                    static_cast<GLintptr>(begin),
+                    static_cast<GLsizeiptr>(count),
+                    &bytes[begin]);
+    return count;
 }
 
 void pointAtInstances(const InstanceBuffer& instances, std::uint32_t first) {

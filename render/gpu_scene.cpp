@@ -1,6 +1,7 @@
 #include "render/gpu_scene.h"
 
 #include "render/gpu_scene_state.h"
+#include "render/material_maps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,45 +10,6 @@
 namespace lodestone {
 
 namespace {
-
-// More new triangles without normals than that in one update are shown faceted: no frame waits.
-constexpr std::uint64_t kMostSmoothed = 500'000;
-
-// Evenly spread hues, muted; neighbours in the list differ clearly.
-glm::vec4 submeshColor(std::uint32_t index) {
-    const double hue = std::fmod(0.12 + index * 0.6180339887498949, 1.0) * 6.0;
-    const auto channel = [&](double shift) {
-        const double k = std::fmod(hue + shift, 6.0);
-        const double pure = std::clamp(std::abs(k - 3.0) - 1.0, 0.0, 1.0);
-        const double srgb = 0.30 + (0.45 + 0.1 * (index % 3)) * pure;
-        return static_cast<float>(std::pow(srgb, 2.2));
-    };
-    return {channel(0.0), channel(4.0), channel(2.0), 1.0f};
-}
-
-Mirroring mirroringOf(const Scene& scene, InstanceRange range) {
-    std::uint32_t mirrored = 0;
-    for (std::uint32_t i = range.begin; i < range.end; ++i)
-        if (glm::determinant(glm::dmat3(scene.instances[i].transform)) < 0.0)
-            ++mirrored;
-    if (mirrored == 0)
-        return Mirroring::None;
-    return mirrored == range.size() ? Mirroring::All : Mirroring::Mixed;
-}
-
-struct MapSlot {
-    const TextureRef* reference;
-    std::uint32_t feature;
-    ColorSpace color_space;
-};
-
-std::array<MapSlot, kMaterialMaps> mapSlots(const Material& material) {
-    return {{{&material.base_color_texture, kBaseMap, ColorSpace::Srgb},
-             {&material.metallic_roughness_texture, kMetallicRoughnessMap, ColorSpace::Linear},
-             {&material.normal_texture, kNormalMap, ColorSpace::Linear},
-             {&material.occlusion_texture, kOcclusionMap, ColorSpace::Linear},
-             {&material.emissive_texture, kEmissiveMap, ColorSpace::Srgb}}};
-}
 
 MaterialBlock materialBlock(const Material& material) {
     MaterialBlock block;
@@ -65,6 +27,11 @@ MaterialBlock materialBlock(const Material& material) {
     return block;
 }
 
+bool isDrawn(const Geometry& shape, PrimitiveMode mode) {
+    return !shape.positions.empty() &&
+           (mode != PrimitiveMode::Triangles || shape.indices.size() >= 3);
+}
+
 std::uint32_t materialFeatures(const Material& material) {
     std::uint32_t features = 0;
     if (material.alpha_mode == AlphaMode::Mask)
@@ -78,46 +45,51 @@ std::uint32_t materialFeatures(const Material& material) {
 
 } // namespace
 
-GpuSceneState::GpuSceneState(std::shared_ptr<RendererState> shared, ScenePtr source)
-    : renderer(std::move(shared)), scene(std::move(source)) {}
+GpuSceneState::GpuSceneState(std::shared_ptr<RendererState> shared, PreparedScenePtr source)
+    : renderer(std::move(shared)), scene(source->scene), bounds(source->bounds),
+      frame(source->frame), submeshes(source->submeshes), prepared_(std::move(source)) {}
 
 void GpuSceneState::open() {
-    bounds = robustWorldBounds(*scene);
-    frame_points = framePoints(*scene, bounds);
-    frame.center = bounds.empty ? glm::dvec3(0.0) : bounds.center();
-    const double radius = bounds.empty ? 1.0 : bounds.diagonal() * 0.5;
-    frame.radius = radius > 0.0 && std::isfinite(radius) ? radius : 1.0;
     revision = renderer->nextRevision();
-    openSubmeshes();
+    openTextures();
     openMaterials();
 }
 
-void GpuSceneState::openSubmeshes() {
-    const std::vector<InstanceRange> ranges = instanceRanges(*scene);
-    submeshes.resize(scene->submeshes.size());
-    for (std::uint32_t i = 0; i < submeshes.size(); ++i) {
-        submeshes[i].frame = localFrame(scene->submeshes[i]);
-        submeshes[i].range = ranges[i];
-        submeshes[i].mirroring = mirroringOf(*scene, ranges[i]);
-        submeshes[i].id_color = submeshColor(i);
+// Names only: the pictures follow one by one.
+void GpuSceneState::openTextures() {
+    textures_.resize(prepared_->images.size());
+    for (std::size_t i = 0; i < textures_.size(); ++i) {
+        if (prepared_->images[i].fault.empty())
+            textures_[i].texture = GlTexture::create();
+        else
+            notes.push_back(prepared_->images[i].fault);
     }
 }
 
+bool GpuSceneState::uploadNextTexture() {
+    if (!prepared_)
+        return false;
+    const std::vector<DecodedImage>& images = prepared_->images;
+    while (next_texture_ < images.size() && !images[next_texture_].rgba)
+        ++next_texture_;
+    if (next_texture_ >= images.size()) {
+        prepared_.reset();
+        return false;
+    }
+    GpuTexture& texture = textures_[next_texture_];
+    texture = uploadTexture(std::move(texture.texture),
+                            images[next_texture_],
+                            prepared_->wishes[next_texture_].color_space);
+    texture_bytes_ += texture.bytes;
+    ++next_texture_;
+    return true;
+}
+
 void GpuSceneState::openMaterials() {
-    std::vector<Material> all = scene->materials;
-    all.emplace_back(); // glTF's default: rough, and not quite a metal to look at
-    all.back().metallic = 0.0f;
+    const std::vector<Material> all = drawnMaterials(*scene);
     std::map<TextureWish, std::size_t> wanted;
-    std::vector<TextureWish> wishes;
-    for (const Material& material : all)
-        for (const MapSlot& slot : mapSlots(material)) {
-            const TextureWish wish{slot.reference->image, slot.color_space};
-            if (wish.image < scene->images.size() && wanted.emplace(wish, wishes.size()).second)
-                wishes.push_back(wish);
-        }
-    textures_ = uploadTextures(*scene, wishes, renderer->info().max_texture_size_px, notes);
-    for (const GpuTexture& texture : textures_)
-        texture_bytes_ += texture.bytes;
+    for (std::size_t i = 0; i < prepared_->wishes.size(); ++i)
+        wanted.emplace(prepared_->wishes[i], i);
 
     const auto alignment = static_cast<std::size_t>(renderer->uniformAlignment());
     const std::size_t step = (sizeof(MaterialBlock) + alignment - 1) / alignment * alignment;
@@ -174,38 +146,55 @@ Result<void> GpuSceneState::check(const Lod& lod) const {
     return {};
 }
 
-std::shared_ptr<const GpuGeometry>
-GpuSceneState::geometry(const GeometryPtr& source, std::uint32_t submesh, PrimitiveMode mode) {
-    std::weak_ptr<const GpuGeometry>& cached = geometries_[{source.get(), submesh}];
-    if (std::shared_ptr<const GpuGeometry> alive = cached.lock())
-        return alive;
-    GeometryWish wish{mode, MissingNormals::LeaveOut};
-    if (lacksNormals(*source, mode) &&
-        smoothed_triangles_ + source->triangleCount() <= kMostSmoothed) {
-        wish.missing_normals = MissingNormals::Smooth;
-        smoothed_triangles_ += source->triangleCount();
-    }
-    std::shared_ptr<const GpuGeometry> made =
-        uploadGeometry(source, submeshes[submesh].frame, wish);
-    cached = made;
-    ++report_.geometries;
-    report_.bytes += made->bytes;
-    return made;
+// Instances of the submesh that are drawn; nothing to draw: 0.
+std::uint32_t GpuSceneState::keptInstances(const LodSubmesh& submesh, std::uint32_t index) const {
+    return submesh.instance_order ? submesh.kept_instances
+                                  : std::min(submesh.kept_instances, submeshes[index].range.size());
 }
 
-std::shared_ptr<const InstanceBuffer>
-GpuSceneState::instances(std::uint32_t submesh,
-                         const std::shared_ptr<const std::vector<std::uint32_t>>& order) {
-    std::weak_ptr<const InstanceBuffer>& cached = instances_[{order.get(), submesh}];
-    if (std::shared_ptr<const InstanceBuffer> alive = cached.lock())
-        return alive;
-    const GpuSubmesh& source = submeshes[submesh];
-    std::shared_ptr<const InstanceBuffer> made =
-        uploadInstances({*scene, source.range, frame, source.frame}, order);
-    cached = made;
-    ++report_.instance_buffers;
-    report_.bytes += made->bytes;
-    return made;
+LodPackage GpuSceneState::missingParts(const Lod& lod) {
+    LodPackage package;
+    LodPackage::Parts& parts = *package.parts_;
+    parts.scene = scene;
+    parts.scene_frame = frame;
+    for (std::uint32_t s = 0; s < submeshes.size(); ++s) {
+        const LodSubmesh& submesh = lod.submeshes[s];
+        if (keptInstances(submesh, s) == 0)
+            continue;
+        bool draws = false;
+        for (std::size_t p = 0; p < submesh.primitives.size(); ++p) {
+            const GeometryPtr& shape = submesh.primitives[p];
+            const PrimitiveMode mode = scene->submeshes[s].primitives[p].mode;
+            if (!isDrawn(*shape, mode))
+                continue;
+            draws = true;
+            if (!geometries_[{shape.get(), s}].expired())
+                continue;
+            const std::uint64_t triangles = shape->triangleCount() + shape->positions.size() / 2;
+            parts.work +=
+                lacksNormals(*shape, mode) ? LodPackage::kSmoothWork * triangles : triangles;
+            parts.geometries.push_back({shape, s, mode, submeshes[s].frame, {}, nullptr});
+        }
+        if (!draws || !instances_[{submesh.instance_order.get(), s}].expired())
+            continue;
+        parts.work += submeshes[s].range.size();
+        parts.instances.push_back(
+            {submesh.instance_order, s, submeshes[s].range, submeshes[s].frame, {}, nullptr});
+    }
+    return package;
+}
+
+Result<LodPackage> GpuSceneState::package(const Lod& lod) {
+    if (Result<void> checked = check(lod); !checked)
+        return tl::unexpected(checked.error());
+    return missingParts(lod);
+}
+
+void GpuSceneState::offer(const LodPackage& package) {
+    for (const auto& part : package.parts_->geometries)
+        geometries_[{part.source.get(), part.submesh}] = part.gpu;
+    for (const auto& part : package.parts_->instances)
+        instances_[{part.order.get(), part.submesh}] = part.gpu;
 }
 
 void GpuSceneState::forgetExpired() {
@@ -214,32 +203,44 @@ void GpuSceneState::forgetExpired() {
 }
 
 Result<UploadReport> GpuSceneState::update(std::unique_ptr<LodState>& handle, const Lod& lod) {
-    if (Result<void> checked = check(lod); !checked)
-        return tl::unexpected(checked.error());
-    report_ = {};
-    smoothed_triangles_ = 0;
-    // Items of the last update by place, so that unchanged ones keep their vertex array.
+    Result<LodPackage> package = this->package(lod);
+    if (!package)
+        return tl::unexpected(package.error());
+    package->pack();
+    UploadReport report;
+    report.geometries = static_cast<std::uint32_t>(package->parts_->geometries.size());
+    report.instance_buffers = static_cast<std::uint32_t>(package->parts_->instances.size());
+    report.bytes = package->copy(std::numeric_limits<std::uint64_t>::max());
+    offer(*package);
+    bool changed = !handle;
+    auto next = assemble(lod, handle.get(), changed);
+    changed = changed || next->items.size() != handle->items.size();
+    next->revision = changed ? renderer->nextRevision() : handle->revision;
+    handle = std::move(next);
+    forgetExpired();
+    return report;
+}
+
+// Everything it needs is on the GPU. Unchanged items take over the vertex array of the last ones.
+std::unique_ptr<LodState>
+GpuSceneState::assemble(const Lod& lod, LodState* last_state, bool& changed) {
     std::map<std::pair<std::uint32_t, const GpuGeometry*>, DrawItem*> last;
-    if (handle)
-        for (DrawItem& item : handle->items)
+    if (last_state)
+        for (DrawItem& item : last_state->items)
             last[{item.submesh, item.geometry.get()}] = &item;
     auto next = std::make_unique<LodState>();
     const auto default_material = static_cast<std::uint32_t>(scene->materials.size());
-    bool changed = !handle;
     for (std::uint32_t s = 0; s < submeshes.size(); ++s) {
         const LodSubmesh& submesh = lod.submeshes[s];
-        const std::uint32_t kept =
-            submesh.instance_order ? submesh.kept_instances
-                                   : std::min(submesh.kept_instances, submeshes[s].range.size());
+        const std::uint32_t kept = keptInstances(submesh, s);
         for (std::size_t p = 0; p < submesh.primitives.size() && kept > 0; ++p) {
             const Primitive& primitive = scene->submeshes[s].primitives[p];
             const Geometry& shape = *submesh.primitives[p];
-            const bool is_list = primitive.mode == PrimitiveMode::Triangles;
-            if (shape.positions.empty() || (is_list && shape.indices.size() < 3))
+            if (!isDrawn(shape, primitive.mode))
                 continue;
             DrawItem item;
-            item.geometry = geometry(submesh.primitives[p], s, primitive.mode);
-            item.instances = instances(s, submesh.instance_order);
+            item.geometry = geometries_[{&shape, s}].lock();
+            item.instances = instances_[{submesh.instance_order.get(), s}].lock();
             item.submesh = s;
             item.mode = primitive.mode;
             item.kept_instances = kept;
@@ -253,7 +254,7 @@ Result<UploadReport> GpuSceneState::update(std::unique_ptr<LodState>& handle, co
                 item.vertex_array = makeVertexArray(*item.geometry, *item.instances);
                 changed = true;
             }
-            if (is_list)
+            if (primitive.mode == PrimitiveMode::Triangles)
                 next->triangles += shape.triangleCount() * kept;
             next->items.push_back(std::move(item));
         }
@@ -261,12 +262,7 @@ Result<UploadReport> GpuSceneState::update(std::unique_ptr<LodState>& handle, co
     std::stable_partition(next->items.begin(), next->items.end(), [&](const DrawItem& item) {
         return (materials[item.material].features & kAlphaBlend) == 0;
     });
-    changed = changed || next->items.size() != handle->items.size();
-    next->revision = changed ? renderer->nextRevision() : handle->revision;
-    handle = std::move(next);
-    last.clear();
-    forgetExpired();
-    return report_;
+    return next;
 }
 
 std::uint64_t GpuSceneState::memoryBytes() const {
@@ -302,9 +298,29 @@ GpuScene::~GpuScene() = default;
 Result<GpuScene> GpuScene::create(const Renderer& renderer, ScenePtr scene) {
     if (!scene)
         return fail(ErrorKind::Usage, "there is no scene to show");
-    auto state = std::make_shared<GpuSceneState>(renderer.shared(), std::move(scene));
+    GpuScene created =
+        create(renderer, prepareScene(std::move(scene), renderer.info().max_texture_size_px));
+    while (created.uploadNextTexture()) {
+    }
+    return created;
+}
+
+GpuScene GpuScene::create(const Renderer& renderer, const PreparedScenePtr& prepared) {
+    auto state = std::make_shared<GpuSceneState>(renderer.shared(), prepared);
     state->open();
     return GpuScene(std::move(state));
+}
+
+bool GpuScene::uploadNextTexture() {
+    return state_->uploadNextTexture();
+}
+
+Result<LodPackage> GpuScene::package(const Lod& lod) const {
+    return state_->package(lod);
+}
+
+void GpuScene::offer(const LodPackage& package) {
+    state_->offer(package);
 }
 
 const ScenePtr& GpuScene::scene() const {
@@ -315,8 +331,8 @@ const Bounds& GpuScene::bounds() const {
     return state_->bounds;
 }
 
-const FramePoints& GpuScene::framePoints() const {
-    return state_->frame_points;
+FramePoints GpuScene::framePoints() const {
+    return lodestone::framePoints(*state_->scene, state_->bounds);
 }
 
 const std::vector<std::string>& GpuScene::notes() const {

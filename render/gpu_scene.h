@@ -2,6 +2,7 @@
 // A scene on the GPU: textures and materials once, geometry shared among its LODs by GeometryPtr
 // identity, transforms in one buffer for each submesh. Main thread, context current.
 #include "render/frame_points.h"
+#include "render/prepared_scene.h"
 #include "render/renderer.h"
 #include "scene/lod.h"
 
@@ -13,6 +14,7 @@
 namespace lodestone {
 
 class GpuSceneState; // render/gpu_scene_state.h, inside this folder
+class LodPackage;    // render/lod_package.h
 struct LodState;
 
 struct UploadReport {
@@ -47,13 +49,17 @@ public:
     // Decodes and uploads textures. What cannot be decoded is drawn neutral and named in notes().
     // Never fails for odd scenes (nothing to draw, far outliers).
     static Result<GpuScene> create(const Renderer& renderer, ScenePtr scene);
+    // The same in steps that no frame waits for long: everything but textures at once, then one
+    // texture a call until uploadNextTexture() returns false. Draw only after that.
+    static GpuScene create(const Renderer& renderer, const PreparedScenePtr& prepared);
+    bool uploadNextTexture();
     GpuScene(GpuScene&&) noexcept;
     GpuScene& operator=(GpuScene&&) noexcept;
     ~GpuScene();
 
     const ScenePtr& scene() const;
-    const Bounds& bounds() const;           // robust
-    const FramePoints& framePoints() const; // for frameCamera
+    const Bounds& bounds() const;    // robust
+    FramePoints framePoints() const; // for frameCamera; computed by each call
     const std::vector<std::string>& notes() const;
     std::uint64_t memoryBytes() const; // geometry + instances + textures now on the GPU
 
@@ -61,6 +67,10 @@ public:
     // Cost: what changed since the last LOD of this handle, nothing for shared pointers.
     // Errors: Usage if the LOD does not fit the scene.
     Result<UploadReport> update(LodHandle& handle, const Lod& lod);
+    // What update() would have to pack and copy. Errors as update().
+    Result<LodPackage> package(const Lod& lod) const;
+    // A copied package's parts are found by update() as long as the package lives.
+    void offer(const LodPackage& package);
 
     // Hidden submeshes are not drawn in any LOD. Empty: all shown.
     void setHiddenSubmeshes(std::vector<bool> hidden); // [submeshes] or empty

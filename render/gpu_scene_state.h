@@ -1,8 +1,8 @@
 #pragma once
 // Inside render/ only: what GpuScene and LodHandle own.
-#include "render/gpu_geometry.h"
 #include "render/gpu_scene.h"
-#include "render/gpu_texture.h"
+#include "render/lod_package_parts.h"
+#include "render/prepared_scene_parts.h"
 #include "render/renderer_state.h"
 
 #include <array>
@@ -32,15 +32,6 @@ struct GpuMaterial {
     GLintptr block_offset = 0; // in GpuSceneState::material_blocks
 };
 
-enum class Mirroring : std::uint8_t { None, All, Mixed };
-
-struct GpuSubmesh {
-    LocalFrame frame;
-    InstanceRange range;
-    Mirroring mirroring = Mirroring::None;
-    glm::vec4 id_color{1.0f}; // linear
-};
-
 // Something drawn with one call.
 struct DrawItem {
     std::shared_ptr<const GpuGeometry> geometry;
@@ -60,16 +51,18 @@ struct LodState {
 
 class GpuSceneState {
 public:
-    GpuSceneState(std::shared_ptr<RendererState> shared, ScenePtr source);
+    GpuSceneState(std::shared_ptr<RendererState> shared, PreparedScenePtr source);
     void open();
+    bool uploadNextTexture(); // false: all are there
 
+    Result<LodPackage> package(const Lod& lod);
+    void offer(const LodPackage& package);
     Result<UploadReport> update(std::unique_ptr<LodState>& handle, const Lod& lod);
     std::uint64_t memoryBytes() const;
 
     std::shared_ptr<RendererState> renderer;
     ScenePtr scene;
     Bounds bounds;
-    FramePoints frame_points;
     SceneFrame frame;
     std::vector<GpuSubmesh> submeshes;  // [scene.submeshes]
     std::vector<GpuMaterial> materials; // [scene.materials + 1]; the last is glTF's default
@@ -79,14 +72,12 @@ public:
     std::uint64_t revision = 0;
 
 private:
-    void openSubmeshes();
+    void openTextures();
     void openMaterials();
     Result<void> check(const Lod& lod) const;
-    std::shared_ptr<const GpuGeometry>
-    geometry(const GeometryPtr& source, std::uint32_t submesh, PrimitiveMode mode);
-    std::shared_ptr<const InstanceBuffer>
-    instances(std::uint32_t submesh,
-              const std::shared_ptr<const std::vector<std::uint32_t>>& order);
+    LodPackage missingParts(const Lod& lod);
+    std::uint32_t keptInstances(const LodSubmesh& submesh, std::uint32_t index) const;
+    std::unique_ptr<LodState> assemble(const Lod& lod, LodState* last, bool& changed);
     void forgetExpired();
 
     std::vector<GpuTexture> textures_;
@@ -95,8 +86,8 @@ private:
     using Cache = std::map<std::pair<const Key*, std::uint32_t>, std::weak_ptr<const Value>>;
     Cache<Geometry, GpuGeometry> geometries_;
     Cache<std::vector<std::uint32_t>, InstanceBuffer> instances_;
-    std::uint64_t smoothed_triangles_ = 0; // by the update that is running
-    UploadReport report_;                  // of the update that is running
+    PreparedScenePtr prepared_; // until every texture is uploaded
+    std::size_t next_texture_ = 0;
 };
 
 } // namespace lodestone

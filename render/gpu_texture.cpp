@@ -12,15 +12,8 @@ namespace {
 
 constexpr std::int64_t kMaxPixels = std::int64_t(1) << 27; // 512 MiB decoded
 
-struct Decoded {
-    std::unique_ptr<stbi_uc, void (*)(void*)> rgba{nullptr, stbi_image_free};
-    int width = 0;
-    int height = 0;
-    std::string fault; // empty: decoded
-};
-
-Decoded decodeImage(const Image& image, int max_size_px) {
-    Decoded decoded;
+DecodedImage decodeImage(const Image& image, int max_size_px) {
+    DecodedImage decoded{{nullptr, stbi_image_free}, 0, 0, {}};
     if (!image.bytes || image.bytes->empty()) {
         decoded.fault = "is missing";
         return decoded;
@@ -50,26 +43,6 @@ Decoded decodeImage(const Image& image, int max_size_px) {
     return decoded;
 }
 
-GpuTexture upload(const Decoded& decoded, ColorSpace color_space) {
-    GpuTexture result;
-    result.texture = GlTexture::create();
-    glBindTexture(GL_TEXTURE_2D, result.texture.name());
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    glTexImage2D(GL_TEXTURE_2D,
-                 0,
-                 color_space == ColorSpace::Srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8,
-                 decoded.width,
-                 decoded.height,
-                 0,
-                 GL_RGBA,
-                 GL_UNSIGNED_BYTE,
-                 decoded.rgba.get());
-    glGenerateMipmap(GL_TEXTURE_2D);
-    glBindTexture(GL_TEXTURE_2D, 0);
-    result.bytes = std::uint64_t(decoded.width) * std::uint64_t(decoded.height) * 16 / 3;
-    return result;
-}
-
 std::string imageLabel(const Scene& scene, std::uint32_t index) {
     const Image& image = scene.images[index];
     const std::string& name = !image.name.empty() ? image.name : image.uri;
@@ -78,24 +51,38 @@ std::string imageLabel(const Scene& scene, std::uint32_t index) {
 
 } // namespace
 
-std::vector<GpuTexture> uploadTextures(const Scene& scene,
-                                       const std::vector<TextureWish>& wishes,
-                                       int max_size_px,
-                                       std::vector<std::string>& notes) {
-    std::vector<Decoded> decoded(wishes.size());
+std::vector<DecodedImage>
+decodeImages(const Scene& scene, const std::vector<TextureWish>& wishes, int max_size_px) {
+    std::vector<DecodedImage> decoded;
+    for (std::size_t i = 0; i < wishes.size(); ++i)
+        decoded.push_back({{nullptr, stbi_image_free}, 0, 0, {}});
     tbb::parallel_for(std::size_t(0), wishes.size(), [&](std::size_t i) {
         decoded[i] = decodeImage(scene.images[wishes[i].image], max_size_px);
+        if (!decoded[i].fault.empty())
+            decoded[i].fault =
+                imageLabel(scene, wishes[i].image) + " " + decoded[i].fault + ": drawn without it";
     });
-    std::vector<GpuTexture> textures(wishes.size());
-    for (std::size_t i = 0; i < wishes.size(); ++i) {
-        if (decoded[i].fault.empty())
-            textures[i] = upload(decoded[i], wishes[i].color_space);
-        else
-            notes.push_back(imageLabel(scene, wishes[i].image) + " " + decoded[i].fault +
-                            ": drawn without it");
-        decoded[i].rgba.reset();
-    }
-    return textures;
+    return decoded;
+}
+
+GpuTexture uploadTexture(GlTexture texture, const DecodedImage& image, ColorSpace color_space) {
+    GpuTexture result;
+    result.texture = std::move(texture);
+    glBindTexture(GL_TEXTURE_2D, result.texture.name());
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glTexImage2D(GL_TEXTURE_2D,
+                 0,
+                 color_space == ColorSpace::Srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8,
+                 image.width,
+                 image.height,
+                 0,
+                 GL_RGBA,
+                 GL_UNSIGNED_BYTE,
+                 image.rgba.get());
+    glGenerateMipmap(GL_TEXTURE_2D);
+    glBindTexture(GL_TEXTURE_2D, 0);
+    result.bytes = std::uint64_t(image.width) * std::uint64_t(image.height) * 16 / 3;
+    return result;
 }
 
 } // namespace lodestone

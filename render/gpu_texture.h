@@ -4,6 +4,7 @@
 #include "scene/scene.h"
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -27,11 +28,20 @@ struct GpuTexture {
     std::uint64_t bytes = 0;
 };
 
-// Decodes PNG and JPEG (and whatever else stb_image knows) in parallel, uploads with mipmaps.
-// Returns textures[i] for wishes[i]; notes name what could not be shown. GL on the calling thread.
-std::vector<GpuTexture> uploadTextures(const Scene& scene,
-                                       const std::vector<TextureWish>& wishes,
-                                       int max_size_px,
-                                       std::vector<std::string>& notes);
+// RGBA, 8 bits a channel, top row first.
+struct DecodedImage {
+    std::unique_ptr<unsigned char, void (*)(void*)> rgba; // null: see fault
+    int width = 0;
+    int height = 0;
+    std::string fault; // a line about the image; empty: decoded
+};
+
+// Decodes PNG and JPEG (and whatever else stb_image knows) in parallel: images[i] for wishes[i].
+// Any thread; no GL.
+std::vector<DecodedImage>
+decodeImages(const Scene& scene, const std::vector<TextureWish>& wishes, int max_size_px);
+
+// With mipmaps. Main thread; texture: GlTexture::create().
+GpuTexture uploadTexture(GlTexture texture, const DecodedImage& image, ColorSpace color_space);
 
 } // namespace lodestone

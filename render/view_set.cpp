@@ -40,13 +40,73 @@ Result<ViewSet::Item*> ViewSet::itemOf(std::uint32_t key) {
     return &items_.emplace(key, Item(std::move(*view))).first->second;
 }
 
-Result<GpuScene*> ViewSet::sceneOf(const ScenePtr& scene) {
-    if (const auto known = scenes_.find(scene.get()); known != scenes_.end())
-        return &known->second;
+// A call may still pack that much itself.
+bool ViewSet::takesNoLonger(std::uint64_t work) {
+    if (last_work_.packed + work > kMostPackedPerCall)
+        return false;
+    last_work_.packed += work;
+    return true;
+}
+
+Result<bool> ViewSet::isSceneReady(const ScenePtr& scene) {
+    if (scenes_.contains(scene.get()))
+        return true;
+    if (!takesNoLonger(preparationWork(*scene))) {
+        if (!delivery_.underWay())
+            delivery_.startScene(renderer_, scene);
+        return false;
+    }
     Result<GpuScene> created = GpuScene::create(renderer_, scene);
     if (!created)
         return tl::unexpected(created.error());
-    return &scenes_.emplace(scene.get(), std::move(*created)).first->second;
+    scenes_.emplace(scene.get(), std::move(*created));
+    return true;
+}
+
+Result<bool> ViewSet::isReady(const Item& item, const Wanted& wanted) {
+    if (const Result<bool> scene = isSceneReady(wanted.scene); !scene || !*scene)
+        return scene;
+    const std::shared_ptr<const Lod>& lod = wanted.draft ? wanted.draft : wanted.lod;
+    const Item::Uploaded& last = wanted.draft ? item.draft : item.full;
+    if (item.scene == wanted.scene.get() && last.handle.valid() && last.lod == lod)
+        return true;
+    Result<LodPackage> package = scenes_.at(wanted.scene.get()).package(*lod);
+    if (!package)
+        return tl::unexpected(package.error());
+    if (takesNoLonger(package->work()))
+        return true;
+    if (!delivery_.underWay())
+        delivery_.startLod(wanted.scene, lod, std::move(*package));
+    return false;
+}
+
+// What nobody wants any more is given up; what arrived at the last call has been taken since.
+Result<void> ViewSet::advanceDelivery(std::span<const Wanted> wanted) {
+    last_work_ = {};
+    if (delivery_.arrivedLod())
+        delivery_.finish();
+    if (!delivery_.underWay())
+        return {};
+    const DeliveryKey& key = *delivery_.key();
+    const bool is_wanted = std::ranges::any_of(wanted, [&](const Wanted& lane) {
+        return lane.scene == key.scene &&
+               (!key.lod || key.lod == lane.lod || key.lod == lane.draft);
+    });
+    if (!is_wanted) {
+        delivery_.giveUp();
+        return {};
+    }
+    const std::uint64_t copied_before = delivery_.copiedBytes();
+    const Scene* const scene = key.scene.get();
+    Result<std::optional<GpuScene>> complete = delivery_.step(renderer_);
+    last_work_.copied_bytes = delivery_.copiedBytes() - copied_before;
+    if (!complete)
+        return tl::unexpected(complete.error());
+    if (const LodPackage* const arrived = delivery_.arrivedLod())
+        scenes_.at(scene).offer(*arrived);
+    if (*complete)
+        scenes_.insert_or_assign(scene, std::move(**complete));
+    return {};
 }
 
 double ViewSet::costOf(const Item& item, const Wanted& wanted) {
@@ -81,9 +141,7 @@ Result<bool> ViewSet::drawItem(Item& item,
                                const OrbitCamera& camera,
                                const ViewOptions& options,
                                double budget_ms) {
-    Result<GpuScene*> scene = sceneOf(wanted.scene);
-    if (!scene)
-        return tl::unexpected(scene.error());
+    GpuScene& scene = scenes_.at(wanted.scene.get());
     if (item.scene != wanted.scene.get()) {
         item.full = Item::Uploaded();
         item.draft = Item::Uploaded();
@@ -92,7 +150,7 @@ Result<bool> ViewSet::drawItem(Item& item,
     Item::Uploaded& shown = wanted.draft ? item.draft : item.full;
     const std::shared_ptr<const Lod>& lod = wanted.draft ? wanted.draft : wanted.lod;
     if (!shown.handle.valid() || shown.lod != lod) {
-        if (const auto updated = (*scene)->update(shown.handle, *lod); !updated)
+        if (const auto updated = scene.update(shown.handle, *lod); !updated)
             return tl::unexpected(updated.error());
         shown.lod = lod;
     }
@@ -100,7 +158,7 @@ Result<bool> ViewSet::drawItem(Item& item,
     item.camera = camera;
     item.options = optionsOf(wanted, options);
     const Result<DrawReport> report =
-        item.view.draw({*scene, &shown.handle, camera, item.options, wanted.size}, budget_ms);
+        item.view.draw({&scene, &shown.handle, camera, item.options, wanted.size}, budget_ms);
     if (!report)
         return tl::unexpected(report.error());
     item.size = wanted.size;
@@ -119,6 +177,8 @@ Result<std::vector<ViewSet::Picture>> ViewSet::draw(std::span<const Wanted> want
                                                     const ViewOptions& options,
                                                     double budget_ms) {
     forgetUnwanted(wanted);
+    if (const Result<void> advanced = advanceDelivery(wanted); !advanced)
+        return tl::unexpected(advanced.error());
     std::vector<Picture> pictures(wanted.size());
     std::vector<Waiting> queue;
     for (std::size_t at = 0; at < wanted.size(); ++at) {
@@ -132,7 +192,13 @@ Result<std::vector<ViewSet::Picture>> ViewSet::draw(std::span<const Wanted> want
             return tl::unexpected(item.error());
         const Item& last = **item;
         pictures[at].stale = isStale(last, lane, camera, options);
-        if (pictures[at].stale)
+        if (!pictures[at].stale)
+            continue;
+        const Result<bool> ready = isReady(last, lane);
+        if (!ready)
+            return tl::unexpected(ready.error());
+        pictures[at].on_its_way = !*ready;
+        if (*ready)
             queue.push_back({costOf(last, lane) > budget_ms, last.drawn_at, at});
     }
     std::sort(queue.begin(), queue.end());

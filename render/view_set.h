@@ -1,6 +1,7 @@
 #pragma once
 // The pictures of several lanes that share one camera: GPU scenes by scene, one view a lane, drawn
 // a few a call so that no frame waits for all of them. Main thread, context current.
+#include "render/delivery.h"
 #include "render/pick.h"
 #include "render/view.h"
 
@@ -28,6 +29,7 @@ public:
         std::uint32_t key = 0;
         TextureHandle texture = 0;  // of the last draw, perhaps of an older state
         bool stale = true;          // not yet what was wanted
+        bool on_its_way = false;    // stale, and drawing it waits for another thread
         bool draft = false;         // it shows a draft
         bool drew = false;          // by this call
         double cost_ms = 0.0;       // of the last measured draw of its LOD; 0: unknown
@@ -37,6 +39,8 @@ public:
     // Draws stale pictures, cheap ones first and then the one that waits longest, until budget_ms
     // is spent; always goes on with at least one. Where the CPU draws, one that costs more than
     // the budget is drawn over several calls, and starts again if it changes before it is done.
+    // Scenes and LODs that take long to bring to the GPU are packed on another thread and copied in
+    // pieces; until they are there, pictures stay as they are.
     // Lanes that are not wanted any more lose their pictures, scenes that no lane wants their GPU
     // memory. Result: one picture for each wanted lane, in order. Errors: those of GpuScene and
     // View.
@@ -44,6 +48,17 @@ public:
                                       const OrbitCamera& camera,
                                       const ViewOptions& options,
                                       double budget_ms);
+
+    // The most that one call packs itself, in LodPackage::work() and preparationWork().
+    static constexpr std::uint64_t kMostPackedPerCall = 150'000;
+
+    // What the last call did beside drawing.
+    struct CallWork {
+        std::uint64_t packed = 0;       // <= kMostPackedPerCall
+        std::uint64_t copied_bytes = 0; // <= Delivery::kCopiedPerStep
+    };
+
+    const CallWork& lastWork() const { return last_work_; }
 
     // What was last drawn under a point of a lane's picture (see pick.h). nullopt: nothing.
     std::optional<Picked> pick(std::uint32_t key, const glm::dvec2& point) const;
@@ -75,7 +90,11 @@ private:
     };
 
     Result<Item*> itemOf(std::uint32_t key);
-    Result<GpuScene*> sceneOf(const ScenePtr& scene);
+    Result<void> advanceDelivery(std::span<const Wanted> wanted);
+    Result<bool> isSceneReady(const ScenePtr& scene);
+    // Whether it can be drawn now; else it is brought to the GPU, once it is its turn.
+    Result<bool> isReady(const Item& item, const Wanted& wanted);
+    bool takesNoLonger(std::uint64_t work);
     static bool isStale(const Item& item,
                         const Wanted& wanted,
                         const OrbitCamera& camera,
@@ -92,6 +111,8 @@ private:
     Renderer renderer_;
     std::map<std::uint32_t, Item> items_;
     std::map<const Scene*, GpuScene> scenes_; // each keeps its scene alive
+    Delivery delivery_;
+    CallWork last_work_;
     std::uint64_t turn_ = 0;
 };
 

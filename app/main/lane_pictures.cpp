@@ -64,10 +64,12 @@ bool LanePictures::take(Session& session, const std::vector<ViewSet::Picture>& d
     bool changed = drawn.size() != shown_.size();
     shown_.clear();
     stale_ = false;
+    waiting_ = false;
     shows_draft_ = false;
     for (const ViewSet::Picture& picture : drawn) {
         changed = changed || picture.drew;
-        stale_ = stale_ || picture.stale;
+        stale_ = stale_ || (picture.stale && !picture.on_its_way);
+        waiting_ = waiting_ || picture.on_its_way;
         shows_draft_ = shows_draft_ || picture.draft;
         if (const Lane* const lane = session.document().findLane(picture.key);
             lane && picture.drew) {

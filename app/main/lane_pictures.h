@@ -23,8 +23,11 @@ public:
 
     std::span<const ui::LanePicture> shown() const { return shown_; }
 
-    // Some picture is not yet what it should be: draw again.
+    // Some picture can be drawn further at once.
     bool stale() const { return stale_; }
+
+    // Some picture waits for another thread: draw again soon.
+    bool waiting() const { return waiting_; }
 
     // Every view shows what it should, nothing is a draft.
     bool final() const;
@@ -51,6 +54,7 @@ private:
     std::map<LaneId, std::uint64_t> seen_lods_;    // lod_revision
     std::map<LaneId, Clock::time_point> rests_at_; // drafts until then
     bool stale_ = false;
+    bool waiting_ = false;
     bool shows_draft_ = false;
 };
 

@@ -52,6 +52,7 @@ private:
     using Clock = std::chrono::steady_clock;
 
     static constexpr int kSettlePasses = 3; // frames until hovering and layout have settled
+    static constexpr std::chrono::milliseconds kDeliveryPoll{10};
     static constexpr double kLongestWaitSeconds = 0.5; // finished jobs are noticed within it
 
     // "llvmpipe" of "llvmpipe (LLVM 15.0.6, 256 bits)".
@@ -105,6 +106,8 @@ private:
         wake_at_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                       std::chrono::duration<double>(wake_s));
         wake_at_ = pictures_.nextRefinement(begun_, wake_at_);
+        if (pictures_.waiting())
+            wake_at_ = std::min(wake_at_, Clock::now() + kDeliveryPoll);
         if (window_.takeFullScreenToggle())
             host_.toggleFullScreen();
         const Document& document = session_.document();

@@ -88,6 +88,8 @@ TEST_F(SlicesTest, ADraftIsShownUntilItIsNoLongerWanted) {
     const auto draft = std::make_shared<const Lod>(std::move(few));
     std::vector<ViewSet::Wanted> wanted{{1, scene_, full, draft, kSize}};
     auto drawn = views.draw(wanted, camera_, {}, 1e9);
+    while (drawn && drawn->front().on_its_way)
+        drawn = views.draw(wanted, camera_, {}, 1e9);
     ASSERT_TRUE(drawn) << drawn.error().message;
     EXPECT_TRUE(drawn->front().draft && drawn->front().drew && !drawn->front().stale);
     drawn = views.draw(wanted, camera_, {}, 1e9);
