@@ -155,25 +155,27 @@ void drawFooter(const Ui& ui, const Lane& lane, const Area& area) {
         return;
     ImFont* const bold = ui.theme.fonts.semibold;
     const float gap = ui.px(8);
-    const auto leftWidth = [&] {
+    const auto left_width = [&] {
         return textWidth(ui, words.triangles, bold) + textWidth(ui, " tri") +
                (words.ratio.empty() ? 0.0f : gap + textWidth(ui, words.ratio));
     };
-    const auto rightWidth = [&] {
+    const auto right_width = [&] {
         return words.rate.empty()
                    ? 0.0f
                    : textWidth(ui, words.rate, bold) + textWidth(ui, " fps") +
                          (words.time.empty() ? 0.0f : gap + textWidth(ui, words.time));
     };
     const auto size_width = textWidth(ui, words.size, bold);
-    const auto tooWide = [&] { return leftWidth() + size_width + rightWidth() + 2 * gap > inner; };
-    if (tooWide())
+    const auto too_wide = [&] {
+        return left_width() + size_width + right_width() + 2 * gap > inner;
+    };
+    if (too_wide())
         words.time.clear();
-    if (tooWide())
+    if (too_wide())
         words.ratio.clear();
-    if (tooWide())
+    if (too_wide())
         words.triangles = formatShortCount(lane.status.numbers.triangles);
-    if (tooWide())
+    if (too_wide())
         words.rate.clear();
     float x = area.position.x + ui.px(10);
     const auto put = [&](std::string_view text, const TextStyle& style) {
@@ -184,9 +186,9 @@ void drawFooter(const Ui& ui, const Lane& lane, const Area& area) {
     put(" tri", {});
     x += gap;
     put(words.ratio, {nullptr, color::kSecondary});
-    const float right_begin = area.end().x - ui.px(10) - rightWidth();
+    const float right_begin = area.end().x - ui.px(10) - right_width();
     const float centred = area.position.x + (area.size.x - size_width) * 0.5f;
-    const float left_end = area.position.x + ui.px(10) + leftWidth() + gap;
+    const float left_end = area.position.x + ui.px(10) + left_width() + gap;
     const float size_x =
         std::clamp(centred, left_end, std::max(left_end, right_begin - gap - size_width));
     drawText(ui, {size_x, y}, Align::Left, words.size, {bold});
@@ -344,7 +346,8 @@ void drawLaneGrid(Ui ui, const PanelInput& input, WindowState& state, const Area
     const float line = ui.theme.hairline();
     for (int at = 0; at < count && input.document.scene; ++at) {
         const auto column = static_cast<float>(at % cells.columns);
-        const auto row = static_cast<float>(at / cells.columns);
+        const int row_index = at / cells.columns;
+        const auto row = static_cast<float>(row_index);
         const ImVec2 step{area.size.x / static_cast<float>(cells.columns),
                           area.size.y / static_cast<float>(cells.rows)};
         const ImVec2 begin{std::round(area.position.x + column * step.x),
