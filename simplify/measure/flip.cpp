@@ -1,6 +1,7 @@
 // FLIP for low-dynamic-range pictures (Andersson et al. 2020). Symbols as in the paper.
 #include "simplify/measure/image_difference.h"
 #include "simplify/measure/plane.h"
+#include "simplify/measure/srgb.h"
 
 #include <algorithm>
 #include <array>
@@ -33,10 +34,6 @@ const glm::dmat3& xyzFromRgb() {
                                                                8788810.0 / 73733382,
                                                                70074185.0 / 73733382));
     return matrix;
-}
-
-double linearFromSrgb(double value) {
-    return value > 0.04045 ? std::pow((value + 0.055) / 1.055, 2.4) : value / 12.92;
 }
 
 // XYZ over that of white.

@@ -30,7 +30,7 @@ std::vector<SurfacePiece> surfacePieces(const LodView& view, const SurfaceFrame&
     assert(view.lod->submeshes.size() == scene.submeshes.size());
     const std::vector<InstanceRange> ranges = instanceRanges(scene);
     std::vector<SurfacePiece> pieces;
-    for (std::size_t s = 0; s < scene.submeshes.size(); ++s) {
+    for (std::uint32_t s = 0; s < scene.submeshes.size(); ++s) {
         const LodSubmesh& submesh = view.lod->submeshes[s];
         for (std::uint32_t kept = 0; kept < submesh.kept_instances; ++kept) {
             const std::uint32_t instance =
@@ -40,11 +40,12 @@ std::vector<SurfacePiece> surfacePieces(const LodView& view, const SurfaceFrame&
             for (int column = 0; column < 4; ++column)
                 to_frame[column] =
                     glm::dvec4(glm::dvec3(to_frame[column]) * frame.scale, to_frame[column].w);
-            for (std::size_t p = 0; p < submesh.primitives.size(); ++p) {
+            for (std::uint32_t p = 0; p < submesh.primitives.size(); ++p) {
                 const GeometryPtr& geometry = submesh.primitives[p];
+                const Primitive& primitive = scene.submeshes[s].primitives[p];
                 if (geometry && geometry->triangleCount() > 0 &&
-                    scene.submeshes[s].primitives[p].mode == PrimitiveMode::Triangles)
-                    pieces.push_back({geometry.get(), to_frame});
+                    primitive.mode == PrimitiveMode::Triangles)
+                    pieces.push_back({geometry.get(), to_frame, s, p, primitive.material});
             }
         }
     }

@@ -26,6 +26,9 @@ using Triangle = std::array<glm::dvec3, 3>;
 struct SurfacePiece {
     const Geometry* geometry = nullptr; // at least one triangle
     glm::dmat4 to_frame{1.0};           // local to frame
+    std::uint32_t submesh = 0;
+    std::uint32_t primitive = 0; // of the submesh
+    std::uint32_t material = kNone;
 
     glm::dvec3 corner(std::uint32_t vertex) const;
     Triangle triangle(std::size_t index) const; // in the frame

@@ -1,0 +1,93 @@
+#include "simplify/measure/color_distance.h"
+
+#include "simplify/measure/measured_side.h"
+#include "simplify/measure/sample_blocks.h"
+#include "simplify/measure/surface_color.h"
+
+#include <optional>
+
+namespace lodestone {
+
+namespace {
+
+struct Sums {
+    std::uint64_t count = 0;
+    double sum = 0.0;
+
+    void add(const Sums& other) {
+        count += other.count;
+        sum += other.sum;
+    }
+
+    double mean() const { return sum / static_cast<double>(count); }
+};
+
+struct ColoredSide {
+    const MeasuredSide& side;
+    const SurfaceColors& colors;
+
+    glm::dvec3 colorAt(std::uint32_t piece, std::size_t triangle, const glm::dvec3& weights) const {
+        const SurfacePiece& drawn = side.pieces[piece];
+        return colors.at(*drawn.geometry, drawn.material, triangle, weights);
+    }
+
+    glm::dvec3 colorAt(const ClosestSurface::Hit& hit, const glm::dvec3& point) const {
+        return colorAt(hit.piece,
+                       side.surface.geometryTriangle(hit),
+                       closestWeights(point, side.surface.triangle(hit)));
+    }
+};
+
+Result<Sums> measureOneSided(const ColoredSide& from,
+                             const ColoredSide& to,
+                             const DistanceOptions& options,
+                             const JobContext& job) {
+    return sumBlocks<Sums>(
+        options.samples, job, [&](std::uint64_t begin, std::uint64_t end, Sums& block) {
+            ClosestSurface::Cursor cursor(to.side.surface);
+            from.side.sampler.visit(
+                {begin, end, options.samples, options.seed}, [&](const SurfaceSample& sample) {
+                    const glm::dvec3 here =
+                        from.colorAt(sample.piece, sample.triangle, sample.weights);
+                    const glm::dvec3 there = to.colorAt(cursor.closest(sample.point), sample.point);
+                    ++block.count;
+                    block.sum += glm::length(here - there);
+                });
+        });
+}
+
+} // namespace
+
+Result<ColorDistance> measureColorDistance(const LodView& a,
+                                           const LodView& b,
+                                           const DistanceOptions& options,
+                                           const JobContext& job) {
+    const Result<MeasuredPair> pair = measuredPair(a, b, options, job);
+    if (!pair)
+        return tl::unexpected(pair.error());
+    const SurfaceColors colors_a(*a.scene);
+    std::optional<SurfaceColors> own_colors_b; // the same scene's images are decoded once
+    if (b.scene != a.scene)
+        own_colors_b.emplace(*b.scene);
+    const SurfaceColors& colors_b = own_colors_b ? *own_colors_b : colors_a;
+    const ColoredSide side_a{pair->a, colors_a};
+    const ColoredSide side_b{pair->b, colors_b};
+    const Result<Sums> a_to_b = measureOneSided(side_a, side_b, options, partOf(job, 0.2, 0.6));
+    if (!a_to_b)
+        return tl::unexpected(a_to_b.error());
+    const Result<Sums> b_to_a = measureOneSided(side_b, side_a, options, partOf(job, 0.6, 1.0));
+    if (!b_to_a)
+        return tl::unexpected(b_to_a.error());
+    ColorDistance distance;
+    distance.a_to_b = a_to_b->mean();
+    distance.b_to_a = b_to_a->mean();
+    distance.mean = 0.5 * (distance.a_to_b + distance.b_to_a);
+    distance.samples = a_to_b->count + b_to_a->count;
+    distance.notes = colors_a.notes();
+    if (own_colors_b)
+        distance.notes.insert(
+            distance.notes.end(), colors_b.notes().begin(), colors_b.notes().end());
+    return distance;
+}
+
+} // namespace lodestone

@@ -1,0 +1,39 @@
+#pragma once
+// The colour of any point of a scene's surface.
+#include "scene/scene.h"
+
+namespace lodestone {
+
+// A decoded image. Rows from the top.
+struct DecodedImage {
+    std::uint32_t width_px = 0;
+    std::uint32_t height_px = 0;
+    std::vector<std::uint8_t> rgba; // [4 * width_px * height_px], sRGB; empty: cannot be read
+
+    // Linear colour at uv (0,0 top left), bilinear or nearest, wrapped as the reference says.
+    glm::vec3 linearAt(const glm::vec2& uv, const TextureRef& texture) const; // image not empty
+};
+
+// Immutable once made; any number of threads.
+class SurfaceColors {
+public:
+    // Decodes the base colour images of the scene's materials, in parallel: PNG and JPEG (whatever
+    // stb_image knows); others are named in notes() and count as white. scene must outlive it.
+    explicit SurfaceColors(const Scene& scene);
+
+    // sRGB, 0..1 each, of a point of a triangle. geometry: drawn with that material (index or
+    // kNone), has the scene's attributes. triangle < its count.
+    glm::dvec3 at(const Geometry& geometry,
+                  std::uint32_t material,
+                  std::size_t triangle,
+                  const glm::dvec3& weights) const;
+
+    const std::vector<std::string>& notes() const { return notes_; }
+
+private:
+    const Scene& scene_;
+    std::vector<DecodedImage> images_; // [scene.images], empty where no base colour uses it
+    std::vector<std::string> notes_;
+};
+
+} // namespace lodestone
