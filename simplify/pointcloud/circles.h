@@ -1,5 +1,5 @@
 #pragma once
-#include "simplify/pointcloud/cloud_surface.h"
+#include "simplify/pointcloud/methods.h"
 
 namespace lodestone {
 

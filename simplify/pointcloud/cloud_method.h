@@ -1,7 +1,6 @@
 #pragma once
 // A method as the source sees it: settings in, simplified surface out.
-#include "scene/job_context.h"
-#include "simplify/pointcloud/cloud_surface.h"
+#include "simplify/pointcloud/methods.h"
 
 namespace lodestone {
 
@@ -41,5 +40,10 @@ struct CloudMethod {
 
 // VT, FAD, IVDD, SS, VTD, FASS.
 extern const CloudMethod kVertexTriplexMethod;
+extern const CloudMethod kFaceAngleMethod;
+extern const CloudMethod kIntervertexDistanceMethod;
+extern const CloudMethod kSphericalScanningMethod;
+extern const CloudMethod kVertexTriplexDistanceMethod;
+extern const CloudMethod kFaceAngleScanningMethod;
 
 } // namespace lodestone

@@ -55,7 +55,7 @@ CloudSubmesh makeCloudSubmesh(const Submesh& submesh,
         return made;
     made.complex = buildComplex(submesh, job);
     if (!job.stopRequested())
-        made.surface = makeSurface(made.complex);
+        made.surface = makeSurface(submesh, made.complex);
     return made;
 }
 

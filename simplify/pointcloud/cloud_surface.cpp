@@ -2,6 +2,7 @@
 
 #include "simplify/pointcloud/triangle_table.h"
 
+#include <cstring>
 #include <numeric>
 
 namespace lodestone {
@@ -24,9 +25,45 @@ void markTwoSided(CloudSurface& surface) {
     }
 }
 
+bool isShading(const Attribute& attribute) {
+    return attribute.semantic == "NORMAL" || attribute.semantic == "TANGENT";
+}
+
+bool sameChart(const Geometry& geometry, std::uint32_t a, std::uint32_t b) {
+    return std::ranges::all_of(geometry.attributes, [&](const Attribute& attribute) {
+        const std::size_t stride = attribute.stride();
+        return isShading(attribute) || std::memcmp(attribute.bytes.data() + a * stride,
+                                                   attribute.bytes.data() + b * stride,
+                                                   stride) == 0;
+    });
+}
+
+// Wedges of a vertex and primitive that look alike get the number of the first of them.
+std::vector<std::uint32_t> findCharts(const Submesh& submesh, const Complex& complex) {
+    std::vector<std::uint32_t> chart(complex.wedge_vertex.size());
+    std::vector<std::uint32_t> first(complex.positions.size(), kNone); // [vertices] chart
+    std::vector<std::uint32_t> next(chart.size(), kNone);              // [charts] of the vertex
+    for (std::size_t p = 0; p < submesh.primitives.size(); ++p) {
+        const Geometry& geometry = *submesh.primitives[p].geometry;
+        const std::uint32_t begin = complex.wedge_begin[p];
+        for (std::uint32_t w = begin; w < complex.wedge_begin[p + 1]; ++w) {
+            std::uint32_t at = first[complex.wedge_vertex[w]];
+            while (at != kNone && at >= begin &&
+                   !sameChart(geometry, complex.wedge_source[at], complex.wedge_source[w]))
+                at = next[at];
+            chart[w] = at != kNone && at >= begin ? at : w;
+            if (chart[w] != w)
+                continue;
+            next[w] = first[complex.wedge_vertex[w]];
+            first[complex.wedge_vertex[w]] = w;
+        }
+    }
+    return chart;
+}
+
 } // namespace
 
-CloudSurface makeSurface(const Complex& complex) {
+CloudSurface makeSurface(const Submesh& submesh, const Complex& complex) {
     CloudSurface surface;
     surface.positions.assign(complex.positions.begin(), complex.positions.end());
     surface.wedge_vertex = complex.wedge_vertex;
@@ -40,8 +77,19 @@ CloudSurface makeSurface(const Complex& complex) {
                   p);
     surface.two_sided.resize(surface.faces.size());
     surface.changed.resize(surface.faces.size());
+    surface.chart = findCharts(submesh, complex);
     markTwoSided(surface);
     return surface;
+}
+
+void forgetUnusedWedges(CloudSurface& surface) {
+    std::vector<bool> used(surface.wedge_vertex.size(), false);
+    for (const Triangle& face : surface.faces)
+        for (const std::uint32_t wedge : face)
+            used[wedge] = true;
+    for (std::size_t w = 0; w < used.size(); ++w)
+        if (!used[w])
+            surface.wedge_vertex[w] = kNone;
 }
 
 glm::dvec3 faceVector(const Triangle3d& points) {

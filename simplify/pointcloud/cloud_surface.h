@@ -11,12 +11,14 @@ using Triangle3d = std::array<glm::dvec3, 3>;
 struct CloudSurface {
     std::vector<glm::dvec3> positions;       // [vertices] where each vertex is now
     std::vector<std::uint32_t> wedge_vertex; // [wedges]; kNone: no face has it any more
-    std::vector<std::uint32_t> stands_for;   // [vertices] of the input: what each became
-    std::vector<Triangle> faces;             // [faces] wedges; no two corners at one vertex
-    std::vector<std::uint32_t> primitive;    // [faces] of the submesh
-    std::vector<std::uint8_t> two_sided;     // [faces] the input has the same face turned over
-    std::vector<std::uint8_t> changed;       // [faces] not as in the input
-    double removal_error = 0.0;              // how far a removed vertex lies from what replaced it
+    // [wedges] equal for wedges of a vertex that differ in their normals and tangents at most
+    std::vector<std::uint32_t> chart;
+    std::vector<std::uint32_t> stands_for; // [vertices] of the input; kNone: removed
+    std::vector<Triangle> faces;           // [faces] wedges; no two corners at one vertex
+    std::vector<std::uint32_t> primitive;  // [faces] of the submesh
+    std::vector<std::uint8_t> two_sided;   // [faces] the input has the same face turned over
+    std::vector<std::uint8_t> changed;     // [faces] not as in the input
+    double removal_error = 0.0;            // how far a removed vertex lies from what replaced it
 
     Triangle corners(std::size_t face) const {
         const Triangle& wedges = faces[face];
@@ -30,7 +32,29 @@ struct CloudSurface {
 };
 
 // The surface of a submesh before any simplification. O(faces).
-CloudSurface makeSurface(const Complex& complex);
+CloudSurface makeSurface(const Submesh& submesh, const Complex& complex);
+
+// Compacts the lists of faces to those that keep(face) wants.
+template <class Keep>
+void keepFaces(CloudSurface& surface, Keep keep) {
+    std::size_t kept = 0;
+    for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+        if (!keep(f))
+            continue;
+        surface.faces[kept] = surface.faces[f];
+        surface.primitive[kept] = surface.primitive[f];
+        surface.two_sided[kept] = surface.two_sided[f];
+        surface.changed[kept] = surface.changed[f];
+        ++kept;
+    }
+    surface.faces.resize(kept);
+    surface.primitive.resize(kept);
+    surface.two_sided.resize(kept);
+    surface.changed.resize(kept);
+}
+
+// Wedges without a face lose their vertex.
+void forgetUnusedWedges(CloudSurface& surface);
 
 // Twice the area of a triangle along its normal.
 glm::dvec3 faceVector(const Triangle3d& points);
@@ -52,9 +76,6 @@ struct Merges {
     std::vector<std::uint32_t> target; // [vertices] target[target[v]] == target[v]
     std::vector<glm::dvec3> positions; // [vertices] finite; of targets
 };
-
-// As the paper words it, or with what keeps the surface sound.
-enum class Fidelity : std::uint8_t { Sound, Literal };
 
 // True once every few thousand rounds if the job is to stop.
 inline bool stopsAt(std::size_t round, const JobContext& job) {

@@ -18,6 +18,7 @@ MergeBuilder::MergeBuilder(const CloudSurface& surface, Fidelity fidelity)
 void MergeBuilder::linkFaces() {
     first_.assign(surface_.positions.size(), kNone);
     last_.assign(surface_.positions.size(), kNone);
+    mark_.assign(surface_.positions.size(), 0);
     links_.reserve(3 * surface_.faces.size());
     for (std::uint32_t f = 0; f < surface_.faces.size(); ++f)
         for (const std::uint32_t vertex : surface_.corners(f)) {
@@ -51,19 +52,23 @@ Triangle3d MergeBuilder::pointsOf(const Triangle& roots) const {
     return {position(roots[0]), position(roots[1]), position(roots[2])};
 }
 
+void MergeBuilder::unlink(std::uint32_t root, std::uint32_t link, std::uint32_t previous) {
+    (previous == kNone ? first_[root] : links_[previous].next) = links_[link].next;
+    if (last_[root] == link)
+        last_[root] = previous;
+}
+
 bool MergeBuilder::turnsFace(std::span<const std::uint32_t> roots, const glm::dvec3& place) {
     constexpr double kLeastCosine = 0.17; // 80 degrees
+    ++stamp_;
+    for (const std::uint32_t root : roots)
+        mark_[root] = stamp_;
     for (const std::uint32_t root : roots) {
         std::uint32_t previous = kNone;
         for (std::uint32_t link = first_[root]; link != kNone; link = links_[link].next) {
             const Triangle corners = rootsOf(links_[link].face);
             if (corners[0] == corners[1] || corners[1] == corners[2] || corners[0] == corners[2]) {
-                if (previous == kNone)
-                    first_[root] = links_[link].next;
-                else
-                    links_[previous].next = links_[link].next;
-                if (last_[root] == link)
-                    last_[root] = previous;
+                unlink(root, link, previous);
                 continue;
             }
             previous = link;
@@ -71,7 +76,7 @@ bool MergeBuilder::turnsFace(std::span<const std::uint32_t> roots, const glm::dv
             const glm::dvec3 normal = faceVector(after);
             int moved = 0;
             for (std::size_t k = 0; k < 3; ++k)
-                if (std::ranges::find(roots, corners[k]) != roots.end()) {
+                if (mark_[corners[k]] == stamp_) {
                     after[k] = place;
                     ++moved;
                 }
@@ -89,6 +94,11 @@ bool MergeBuilder::turnsFace(std::span<const std::uint32_t> roots, const glm::dv
 bool MergeBuilder::merge(std::span<const std::uint32_t> roots, const glm::dvec3& place) {
     if (fidelity_ == Fidelity::Sound && turnsFace(roots, place))
         return false;
+    mergeAnyway(roots, place);
+    return true;
+}
+
+void MergeBuilder::mergeAnyway(std::span<const std::uint32_t> roots, const glm::dvec3& place) {
     const std::uint32_t kept = *std::ranges::min_element(roots);
     for (const std::uint32_t root : roots) {
         if (root == kept)
@@ -103,7 +113,6 @@ bool MergeBuilder::merge(std::span<const std::uint32_t> roots, const glm::dvec3&
         last_[kept] = last_[root];
     }
     merges_.positions[kept] = place;
-    return true;
 }
 
 Merges MergeBuilder::finish() {

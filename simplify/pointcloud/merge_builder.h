@@ -1,6 +1,6 @@
 #pragma once
 // Collects the merges of one pass: union-find over vertices, each with its current place.
-#include "simplify/pointcloud/cloud_surface.h"
+#include "simplify/pointcloud/methods.h"
 
 namespace lodestone {
 
@@ -21,7 +21,10 @@ public:
     // around them).
     bool merge(std::span<const std::uint32_t> roots, const glm::dvec3& place);
 
-    // Whether merging them there would turn a face.
+    // The same without a check.
+    void mergeAnyway(std::span<const std::uint32_t> roots, const glm::dvec3& place);
+
+    // Whether merging them there would turn a face. Not for Literal.
     bool turnsFace(std::span<const std::uint32_t> roots, const glm::dvec3& place);
 
     Merges finish();
@@ -33,6 +36,8 @@ private:
     };
 
     void linkFaces();
+    // Takes a face that has collapsed out of a root's list; previous: the link before it or kNone.
+    void unlink(std::uint32_t root, std::uint32_t link, std::uint32_t previous);
 
     const CloudSurface& surface_;
     Fidelity fidelity_;
@@ -42,6 +47,8 @@ private:
     std::vector<Link> links_;
     std::vector<std::uint32_t> first_; // [vertices] into links_
     std::vector<std::uint32_t> last_;  // [vertices] into links_
+    std::vector<std::uint32_t> mark_;  // [vertices] stamp_: about to merge
+    std::uint32_t stamp_ = 0;
 };
 
 } // namespace lodestone

@@ -82,13 +82,19 @@ private:
     std::map<std::uint64_t, Counted> counted_;
 };
 
+// From that rung on too few triangles would be left: the coarsest allowed stands in.
+struct Floor {
+    std::uint64_t rung = ~std::uint64_t{0};
+    CloudPiece piece;
+};
+
 class PointCloudSource final : public LodSource {
 public:
     PointCloudSource(std::shared_ptr<const CloudInput> input, const ScheduleOptions& schedule)
-        : input_(std::move(input)), schedule_(schedule) {}
+        : input_(std::move(input)), schedule_(schedule), floors_(input_->submeshes.size()) {}
 
     // The slow part. False if cancelled.
-    bool tryAnchors(const JobContext& job) const;
+    bool tryAnchors(const JobContext& job);
 
     const ScenePtr& scene() const override { return input_->scene; }
 
@@ -122,9 +128,12 @@ private:
     double rungValue(std::uint64_t rung) const;
     CloudSettings settingsOfRung(std::uint64_t rung) const;
     CloudPiece simplified(std::size_t s, CloudSettings settings, const JobContext& job) const;
-    CloudPiece pieceAt(std::size_t s, std::uint64_t position, const JobContext& job) const;
+    CloudPiece
+    pieceAt(std::size_t s, std::uint64_t position, const JobContext& job, Floor* floor) const;
     CloudPiece coarsestAllowed(std::size_t s, std::uint64_t rung, const JobContext& job) const;
-    CloudLodPtr compute(std::uint64_t position, const JobContext& job) const;
+    // floors: where to note that a submesh has reached its own; null: they are known.
+    CloudLodPtr
+    compute(std::uint64_t position, const JobContext& job, std::vector<Floor>* floors) const;
     CloudLodPtr at(std::uint64_t position) const;
     Counted countedAt(std::uint64_t position) const;
 
@@ -134,6 +143,7 @@ private:
 
     std::shared_ptr<const CloudInput> input_;
     ScheduleOptions schedule_;
+    std::vector<Floor> floors_; // [submeshes]
     mutable CloudLodCache cache_;
 };
 
@@ -194,8 +204,10 @@ PointCloudSource::coarsestAllowed(std::size_t s, std::uint64_t rung, const JobCo
     return best;
 }
 
-CloudPiece
-PointCloudSource::pieceAt(std::size_t s, std::uint64_t position, const JobContext& job) const {
+CloudPiece PointCloudSource::pieceAt(std::size_t s,
+                                     std::uint64_t position,
+                                     const JobContext& job,
+                                     Floor* floor) const {
     const CloudSubmesh& submesh = input_->submeshes[s];
     const bool locked = !schedule_.locked.empty() && schedule_.locked[s];
     if (position == 0 || locked || submesh.surface.faces.empty())
@@ -208,15 +220,26 @@ PointCloudSource::pieceAt(std::size_t s, std::uint64_t position, const JobContex
         for (rung = kRungs; rung > 0 && rungValue(rung) > settings.main;)
             --rung;
     }
+    const Floor& known = floor ? *floor : floors_[s];
+    if (rung >= known.rung)
+        return known.piece;
     CloudPiece piece = simplified(s, settings, job);
-    return piece.triangles >= floorOf(submesh) ? piece : coarsestAllowed(s, rung, job);
+    if (piece.triangles >= floorOf(submesh))
+        return piece;
+    piece = coarsestAllowed(s, rung, job);
+    if (floor)
+        *floor = {rung, piece};
+    return piece;
 }
 
-CloudLodPtr PointCloudSource::compute(std::uint64_t position, const JobContext& job) const {
+CloudLodPtr PointCloudSource::compute(std::uint64_t position,
+                                      const JobContext& job,
+                                      std::vector<Floor>* floors) const {
     const std::size_t count = input_->submeshes.size();
     std::vector<CloudPiece> pieces(count);
-    tbb::parallel_for(
-        std::size_t{0}, count, [&](std::size_t s) { pieces[s] = pieceAt(s, position, job); });
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t s) {
+        pieces[s] = pieceAt(s, position, job, floors ? &(*floors)[s] : nullptr);
+    });
     auto made = std::make_shared<CloudLod>();
     Lod& lod = made->lod;
     lod.position = position;
@@ -239,7 +262,7 @@ CloudLodPtr PointCloudSource::at(std::uint64_t position) const {
     position = std::min(position, lastPosition());
     CloudLodPtr made = cache_.find(position);
     if (!made) {
-        made = compute(position, {});
+        made = compute(position, {}, nullptr);
         cache_.insert(made);
     }
     return made;
@@ -253,10 +276,10 @@ Counted PointCloudSource::countedAt(std::uint64_t position) const {
     return {static_cast<double>(made->lod.triangles), made->error_percent};
 }
 
-bool PointCloudSource::tryAnchors(const JobContext& job) const {
+bool PointCloudSource::tryAnchors(const JobContext& job) {
     const std::uint64_t step = isGiven() ? 1 : kRungs / kAnchors;
     for (std::uint64_t position = 0; position <= lastPosition(); position += step) {
-        const CloudLodPtr made = compute(position, job);
+        const CloudLodPtr made = compute(position, job, &floors_);
         if (job.stopRequested())
             return false;
         cache_.insert(made);

@@ -8,11 +8,12 @@ namespace lodestone {
 
 namespace {
 
-constexpr std::string_view kPaper = "six point-cloud methods";
+constexpr std::string_view kPercentOfDiagonal = "% of the diagonal";
+constexpr std::string_view kDegrees = "\xc2\xb0";
 
 ParameterInfo coverageParameter() {
     ParameterInfo info;
-    info.id = "coverage";
+    info.id = kVertexTriplexMethod.main_id;
     info.label = "Coverage";
     info.unit = "passes";
     info.tooltip = "How often every triangle is offered to be merged; a fraction offers that part "
@@ -21,36 +22,100 @@ ParameterInfo coverageParameter() {
     return info;
 }
 
-ParameterInfo literalParameter() {
+ParameterInfo distanceParameter() {
+    ParameterInfo info;
+    info.id = kIntervertexDistanceMethod.main_id;
+    info.label = "Distance";
+    info.unit = kPercentOfDiagonal;
+    info.tooltip = "Vertices of a triangle that are nearer to each other merge. 0: as the target "
+                   "needs.";
+    info.maximum = 10.0;
+    return info;
+}
+
+ParameterInfo radiusParameter() {
+    ParameterInfo info;
+    info.id = kSphericalScanningMethod.main_id;
+    info.label = "Radius";
+    info.unit = kPercentOfDiagonal;
+    info.tooltip = "Of the sphere in which all vertices merge. 0: as the target needs.";
+    info.maximum = 10.0;
+    return info;
+}
+
+ParameterInfo angleParameter() {
+    ParameterInfo info;
+    info.id = kFaceAngleMethod.main_id;
+    info.label = "Angle";
+    info.unit = kDegrees;
+    info.tooltip = "A vertex goes if no two faces around it meet at more than this. 0: as the "
+                   "target needs.";
+    info.maximum = kFaceAngleMethod.maximum;
+    return info;
+}
+
+ParameterInfo firstAngleParameter() {
+    ParameterInfo info = angleParameter();
+    info.tooltip = "Before the sphere comes, a vertex goes if no two faces around it meet at more "
+                   "than this.";
+    info.fallback = 30.0;
+    return info;
+}
+
+ParameterInfo passesParameter(double fallback) {
+    ParameterInfo info;
+    info.id = "passes";
+    info.label = "Passes";
+    info.tooltip = "How often all vertices are looked at; in one pass no two neighbours go.";
+    info.kind = ParameterInfo::Kind::Integer;
+    info.minimum = 1.0;
+    info.maximum = 64.0;
+    info.fallback = fallback;
+    return info;
+}
+
+ParameterInfo areaParameter() {
+    ParameterInfo info;
+    info.id = "area";
+    info.label = "Largest area";
+    info.unit = "% of the surface";
+    info.tooltip = "A vertex stays if the faces around it cover more than this.";
+    info.maximum = 100.0;
+    info.fallback = 100.0;
+    return info;
+}
+
+ParameterInfo literalParameter(std::string_view tooltip) {
     ParameterInfo info;
     info.id = "literal";
     info.label = "As in the paper";
-    info.tooltip = "Circumcentres that may lie outside their triangle, and no check that a merge "
-                   "turns a face over.";
+    info.tooltip = tooltip;
     info.kind = ParameterInfo::Kind::Toggle;
     return info;
 }
 
-Result<PointCloudOptions>
-readOptions(const Algorithm& row, const CloudMethod& method, const ParameterValues& values) {
-    for (const auto& [id, value] : values) {
-        const auto found =
-            std::ranges::find(row.parameters, std::string_view(id), &ParameterInfo::id);
+constexpr std::string_view kLiteralCircles =
+    "Circumcentres even where they lie outside their triangle, and merges that turn faces over.";
+constexpr std::string_view kLiteralSpheres = "Merges that turn faces over, too.";
+constexpr std::string_view kLiteralAngles =
+    "What may go is decided once, on the surface as it was, not again after every pass.";
+
+// Usage errors name the parameter.
+Result<void> checkValues(const Algorithm& row, const ParameterValues& values) {
+    for (const auto& entry : values) {
+        const std::string& id = entry.first;
+        const auto same = [&](const ParameterInfo& info) { return info.id == id; };
+        const auto found = std::ranges::find_if(row.parameters, same);
         if (found == row.parameters.end())
             return fail(ErrorKind::Usage, std::string(row.id) + ": unknown parameter '" + id + "'");
         const double maximum = found->kind == ParameterInfo::Kind::Choice
                                    ? static_cast<double>(found->choices.size() - 1)
                                    : found->maximum;
-        if (!(value >= found->minimum && value <= maximum))
+        if (!(entry.second >= found->minimum && entry.second <= maximum))
             return fail(ErrorKind::Usage,
                         std::string(row.id) + ": parameter '" + id + "' is out of range");
     }
-    PointCloudOptions options;
-    options.method = &method;
-    options.main = parameterValue(row, values, method.main_id);
-    if (parameterValue(row, values, "literal") > 0.5)
-        options.settings.fidelity = Fidelity::Literal;
-    return options;
+    return {};
 }
 
 template <Algorithm (*Row)(), const CloudMethod& Method>
@@ -58,15 +123,28 @@ Result<LodSourcePtr> prepare(const ScenePtr& scene,
                              const ParameterValues& values,
                              const ScheduleOptions& schedule,
                              const JobContext& job) {
-    const Result<PointCloudOptions> options = readOptions(Row(), Method, values);
-    if (!options)
-        return tl::unexpected(options.error());
-    return preparePointCloud(scene, *options, schedule, job);
+    const Algorithm row = Row();
+    if (const Result<void> checked = checkValues(row, values); !checked)
+        return tl::unexpected(checked.error());
+    PointCloudOptions options;
+    options.method = &Method;
+    options.main = parameterValue(row, values, Method.main_id);
+    CloudSettings& settings = options.settings;
+    if (parameterValue(row, values, "literal") > 0.5)
+        settings.fidelity = Fidelity::Literal;
+    settings.angle_deg = parameterValue(row, values, "angle");
+    settings.passes = static_cast<std::uint32_t>(parameterValue(row, values, "passes"));
+    settings.area_share = 0.01 * parameterValue(row, values, "area");
+    return preparePointCloud(scene, options, schedule, job);
 }
 
-Algorithm commonRow() {
+// What all rows have in common.
+Algorithm oneShot(std::string_view id, std::string_view name, std::string_view short_name) {
     Algorithm row;
-    row.paper = kPaper;
+    row.id = id;
+    row.name = name;
+    row.short_name = short_name;
+    row.paper = "six point-cloud methods";
     row.family = Family::OneShot;
     return row;
 }
@@ -74,14 +152,57 @@ Algorithm commonRow() {
 } // namespace
 
 Algorithm vertexTriplexAlgorithm() {
-    Algorithm row = commonRow();
-    row.id = "vt";
-    row.name = "Vertex triplex (VT)";
-    row.short_name = "VT";
-    row.summary = "Merges the three vertices of triangle after triangle into the centre of its "
+    Algorithm row = oneShot("vt", "Vertex triplex (VT)", "VT");
+    row.summary = "Merges the vertices of one triangle after the other into the centre of its "
                   "circle.";
-    row.parameters = {coverageParameter(), literalParameter()};
+    row.parameters = {coverageParameter(), literalParameter(kLiteralCircles)};
     row.prepare = prepare<vertexTriplexAlgorithm, kVertexTriplexMethod>;
+    return row;
+}
+
+Algorithm faceAngleAlgorithm() {
+    Algorithm row = oneShot("fad", "Face angle dependency (FAD)", "FAD");
+    row.summary = "Removes vertices whose faces lie nearly in one plane and closes the holes.";
+    row.parameters = {
+        angleParameter(), passesParameter(8.0), areaParameter(), literalParameter(kLiteralAngles)};
+    row.prepare = prepare<faceAngleAlgorithm, kFaceAngleMethod>;
+    return row;
+}
+
+Algorithm intervertexDistanceAlgorithm() {
+    Algorithm row = oneShot("ivdd", "Intervertex distance dependence (IVDD)", "IVDD");
+    row.summary = "Merges the vertices of a triangle that are near to each other.";
+    row.parameters = {distanceParameter(), literalParameter(kLiteralCircles)};
+    row.prepare = prepare<intervertexDistanceAlgorithm, kIntervertexDistanceMethod>;
+    return row;
+}
+
+Algorithm sphericalScanningAlgorithm() {
+    Algorithm row = oneShot("ss", "Spherical scanning (SS)", "SS");
+    row.summary = "Moves a sphere over the vertices; all inside become one.";
+    row.parameters = {radiusParameter(), literalParameter(kLiteralSpheres)};
+    row.prepare = prepare<sphericalScanningAlgorithm, kSphericalScanningMethod>;
+    return row;
+}
+
+Algorithm vertexTriplexDistanceAlgorithm() {
+    Algorithm row = oneShot("vtd", "Vertex triplex distance (VTD)", "VTD");
+    row.summary = "Small triangles become the centre of their circle; beside a short edge the "
+                  "longer one becomes its midpoint.";
+    row.parameters = {distanceParameter(), literalParameter(kLiteralCircles)};
+    row.prepare = prepare<vertexTriplexDistanceAlgorithm, kVertexTriplexDistanceMethod>;
+    return row;
+}
+
+Algorithm faceAngleScanningAlgorithm() {
+    Algorithm row = oneShot("fass", "Face angle spherical scanning (FASS)", "FASS");
+    row.summary = "FAD, then SS on what remains.";
+    row.parameters = {radiusParameter(),
+                      firstAngleParameter(),
+                      passesParameter(1.0),
+                      areaParameter(),
+                      literalParameter(kLiteralSpheres)};
+    row.prepare = prepare<faceAngleScanningAlgorithm, kFaceAngleScanningMethod>;
     return row;
 }
 

@@ -90,23 +90,6 @@ void remapFaces(CloudSurface& surface,
     surface.changed.resize(kept);
 }
 
-void keepFaces(CloudSurface& surface, const std::vector<bool>& keep) {
-    std::size_t kept = 0;
-    for (std::size_t f = 0; f < surface.faces.size(); ++f) {
-        if (!keep[f])
-            continue;
-        surface.faces[kept] = surface.faces[f];
-        surface.primitive[kept] = surface.primitive[f];
-        surface.two_sided[kept] = surface.two_sided[f];
-        surface.changed[kept] = surface.changed[f];
-        ++kept;
-    }
-    surface.faces.resize(kept);
-    surface.primitive.resize(kept);
-    surface.two_sided.resize(kept);
-    surface.changed.resize(kept);
-}
-
 // Two-sided faces form a group of their own in which nothing cancels.
 std::uint32_t groupOf(const CloudSurface& surface, std::size_t face) {
     return 2 * surface.primitive[face] + surface.two_sided[face];
@@ -136,17 +119,7 @@ void dropDoubles(CloudSurface& surface) {
         const bool survives = own > others || surface.two_sided[f];
         keep[f] = survives && f == (key.turned ? entry.backward : entry.forward);
     }
-    keepFaces(surface, keep);
-}
-
-void forgetUnusedWedges(CloudSurface& surface) {
-    std::vector<bool> used(surface.wedge_vertex.size(), false);
-    for (const Triangle& face : surface.faces)
-        for (const std::uint32_t wedge : face)
-            used[wedge] = true;
-    for (std::size_t w = 0; w < used.size(); ++w)
-        if (!used[w])
-            surface.wedge_vertex[w] = kNone;
+    keepFaces(surface, [&](std::size_t f) { return keep[f]; });
 }
 
 } // namespace
@@ -158,7 +131,8 @@ void applyMerges(CloudSurface& surface, const Merges& merges, const Complex& com
         if (vertex != kNone)
             vertex = merges.target[vertex];
     for (std::uint32_t& vertex : surface.stands_for)
-        vertex = merges.target[vertex];
+        if (vertex != kNone)
+            vertex = merges.target[vertex];
     surface.positions = merges.positions;
     dropDoubles(surface);
     forgetUnusedWedges(surface);

@@ -1,0 +1,81 @@
+#include "simplify/pointcloud/circles.h"
+#include "simplify/pointcloud/merge_builder.h"
+#include "simplify/pointcloud/methods.h"
+
+#include <algorithm>
+
+namespace lodestone {
+
+namespace {
+
+// Sides of a triangle; side k lies opposite corner k.
+std::array<double, 3> sidesOf(const Triangle3d& points) {
+    return {glm::distance(points[1], points[2]),
+            glm::distance(points[2], points[0]),
+            glm::distance(points[0], points[1])};
+}
+
+bool isCollapsed(const Triangle& roots) {
+    return roots[0] == roots[1] || roots[1] == roots[2] || roots[2] == roots[0];
+}
+
+bool mergeSide(MergeBuilder& builder, const Triangle& roots, std::size_t side) {
+    const std::array<std::uint32_t, 2> ends{roots[(side + 1) % 3], roots[(side + 2) % 3]};
+    return builder.merge(ends, (builder.position(ends[0]) + builder.position(ends[1])) * 0.5);
+}
+
+} // namespace
+
+Merges intervertexDistance(const CloudSurface& surface,
+                           double distance,
+                           Fidelity fidelity,
+                           const JobContext& job) {
+    MergeBuilder builder(surface, fidelity);
+    for (std::size_t f = 0; f < surface.faces.size() && !stopsAt(f, job); ++f) {
+        const Triangle roots = builder.rootsOf(f);
+        if (isCollapsed(roots))
+            continue;
+        const Triangle3d points = builder.pointsOf(roots);
+        const std::array<double, 3> sides = sidesOf(points);
+        const auto shortest =
+            static_cast<std::size_t>(std::ranges::min_element(sides) - sides.begin());
+        const auto near_count =
+            std::ranges::count_if(sides, [&](double side) { return side < distance; });
+        // Two short sides meet in a vertex that is near to both others.
+        if (near_count >= 2 && builder.merge(roots, triplexCentre(points, fidelity)))
+            continue;
+        if (near_count >= 1)
+            mergeSide(builder, roots, shortest);
+    }
+    return builder.finish();
+}
+
+Merges vertexTriplexDistance(const CloudSurface& surface,
+                             double distance,
+                             Fidelity fidelity,
+                             const JobContext& job) {
+    MergeBuilder builder(surface, fidelity);
+    for (std::size_t f = 0; f < surface.faces.size() && !stopsAt(f, job); ++f) {
+        const Triangle roots = builder.rootsOf(f);
+        if (isCollapsed(roots))
+            continue;
+        const Triangle3d points = builder.pointsOf(roots);
+        const std::array<double, 3> sides = sidesOf(points);
+        if (std::ranges::all_of(sides, [&](double side) { return side < distance; })) {
+            builder.merge(roots, triplexCentre(points, fidelity));
+            continue;
+        }
+        // d12, d13, d23 in this order: the sides opposite corners 2, 1, 0.
+        for (const std::size_t side : {2u, 1u, 0u}) {
+            if (sides[side] > distance)
+                continue;
+            const std::size_t a = (side + 1) % 3;
+            const std::size_t b = (side + 2) % 3;
+            mergeSide(builder, roots, sides[a] > sides[b] ? a : b);
+            break;
+        }
+    }
+    return builder.finish();
+}
+
+} // namespace lodestone
