@@ -128,6 +128,33 @@ void addPeersPart(Report& report,
     }
 }
 
+void addMicroPart(Report& report, const Options& options) {
+    report.tables +=
+        "\n## Hot paths\n\nCPU time of one iteration on one thread, median (min–max) "
+        "of 5 repetitions in random order, over that of a reference kernel of the same "
+        "run. \"Before\": bench/micro_baseline.json.\n\n";
+#ifdef LODESTONE_MICROBENCH
+    std::cerr << "hot paths\n";
+    // It exits with 1 if a path has become slower; that line is in its output, as this is.
+    const Result<Ran> ran = runProgram({"sh",
+                                        "-c",
+                                        "\"$0\" \"$@\" || echo \"- exit code $?\"",
+                                        LODESTONE_MICROBENCH,
+                                        "--baseline",
+                                        LODESTONE_SOURCE_DIR "/bench/micro_baseline.json",
+                                        "--seconds",
+                                        options.quick ? "0.02" : "0.2"});
+    if (!ran) {
+        std::cerr << "lodestone_bench: " << ran.error().message << '\n';
+        report.exit_code = exitCode(ran.error().kind);
+        return;
+    }
+    report.tables += ran->output;
+#else
+    report.tables += "Not measured: Google Benchmark was not found: install libbenchmark-dev.\n";
+#endif
+}
+
 int writeReport(const Options& options, const Report& report, const std::string& machine) {
     const std::string text = fmt::format("# Results\n\n"
                                          "Written by `lodestone_bench`{} at commit {}.\n\n"
@@ -160,6 +187,8 @@ int run(const Options& options) {
         addFiguresPart(report, options, inputs, wanted);
     if (options.peers || options.everything())
         addPeersPart(report, options, inputs, wanted);
+    if (options.micro || options.everything())
+        addMicroPart(report, options);
     return writeReport(options, report, machine);
 }
 

@@ -15,7 +15,7 @@ Result<ScenePtr> Inputs::own(const std::string& name) {
     if (name == "sphere")
         return scene = displacedSphere(289);
     if (name == "small sphere")
-        return scene = displacedSphere(100);
+        return scene = displacedSphere(64);
     if (name == "cards")
         return scene = leafCards();
     Result<ScenePtr> generated = generateScene(name);

@@ -40,8 +40,8 @@ constexpr std::array kMeasures{
 std::string ratioText(double ratio) {
     if (std::isnan(ratio))
         return "–";
-    if (std::isinf(ratio))
-        return "∞";
+    if (ratio > 1000.0)
+        return "> 1000×";
     const std::string text = fmt::format("{:.3g}×", ratio);
     return ratio < kBetterBelow ? "**" + text + "**" : text;
 }

@@ -20,10 +20,8 @@ struct PeerInputFile {
 // Single meshes, then instanced scenes, then textured ones.
 constexpr std::array kInputs{
     PeerInputFile{"Stanford bunny", From::Model, "meshes/bun_zipper/bun_zipper.ply", true},
-    PeerInputFile{"Our bunny", From::Generator, "bunny", false},
     PeerInputFile{"Small displaced sphere", From::Generator, "small sphere", false},
     PeerInputFile{"Horse", From::Model, "meshes/horse/horse.ply", false},
-    PeerInputFile{"Armadillo", From::Model, "meshes/armadillo/armadillo.obj", false},
     PeerInputFile{"Fandisk", From::Model, "meshes/fandisk/fandisk.obj", true},
     PeerInputFile{"Chair", From::Generator, "chair", true},
     PeerInputFile{"Maple", From::Generator, "maple", true},
@@ -38,8 +36,7 @@ constexpr std::array kInputs{
     PeerInputFile{"Castle", From::Model, "instanced/castle/castle.gltf", false},
     PeerInputFile{"Duck", From::Model, "textured/Duck/Duck.glb", false},
     PeerInputFile{"Damaged helmet", From::Model, "textured/DamagedHelmet/DamagedHelmet.glb", true},
-    PeerInputFile{
-        "Barn lamp", From::Model, "textured/anisotropy-barn-lamp/AnisotropyBarnLamp.gltf", false}};
+};
 
 Result<ScenePtr> sceneOf(const PeerInputFile& input, Inputs& inputs) {
     return input.from == From::Model ? inputs.model(input.name) : inputs.own(input.name);
