@@ -14,7 +14,7 @@ build_packages=(
 
 # To build and run every test and bench besides.
 test_packages=(
-    git ca-certificates libgtest-dev libbenchmark-dev
+    git ca-certificates libgtest-dev libbenchmark-dev libcgal-dev
     python3 python3-gi gir1.2-gtk-3.0 xvfb xauth xdotool x11-utils imagemagick
 )
 
