@@ -12,8 +12,15 @@
 namespace lodestone {
 
 std::span<const Algorithm> algorithms() {
-    static const std::array kTable{
-        quadricAlgorithm(), quadricSubmeshAlgorithm(), iasAlgorithm(), vertexTriplexAlgorithm()};
+    static const std::array kTable{quadricAlgorithm(),
+                                   quadricSubmeshAlgorithm(),
+                                   iasAlgorithm(),
+                                   vertexTriplexAlgorithm(),
+                                   faceAngleAlgorithm(),
+                                   intervertexDistanceAlgorithm(),
+                                   sphericalScanningAlgorithm(),
+                                   vertexTriplexDistanceAlgorithm(),
+                                   faceAngleScanningAlgorithm()};
     return kTable;
 }
 

@@ -90,11 +90,6 @@ void remapFaces(CloudSurface& surface,
     surface.changed.resize(kept);
 }
 
-// Two-sided faces form a group of their own in which nothing cancels.
-std::uint32_t groupOf(const CloudSurface& surface, std::size_t face) {
-    return 2 * surface.primitive[face] + surface.two_sided[face];
-}
-
 void dropDoubles(CloudSurface& surface) {
     const auto changed = static_cast<std::size_t>(
         std::ranges::count_if(surface.changed, [](std::uint8_t flag) { return flag != 0; }));
@@ -102,21 +97,25 @@ void dropDoubles(CloudSurface& surface) {
     for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
         if (!surface.changed[f])
             continue;
-        const TriangleKey key = triangleKey(surface.corners(f), groupOf(surface, f));
+        const TriangleKey key = triangleKey(surface.corners(f), surface.primitive[f]);
         TriangleTable::Entry& entry = table.at(key);
         std::uint32_t& first = key.turned ? entry.backward : entry.forward;
         first = std::min(first, f);
-        ++(key.turned ? entry.backward_count : entry.forward_count);
+        if (surface.two_sided[f])
+            (key.turned ? entry.backward_pinned : entry.forward_pinned) = true;
+        else
+            ++(key.turned ? entry.backward_count : entry.forward_count);
     }
     std::vector<bool> keep(surface.faces.size(), true);
     for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
         if (!surface.changed[f])
             continue;
-        const TriangleKey key = triangleKey(surface.corners(f), groupOf(surface, f));
+        const TriangleKey key = triangleKey(surface.corners(f), surface.primitive[f]);
         const TriangleTable::Entry& entry = table.at(key);
         const std::uint32_t own = key.turned ? entry.backward_count : entry.forward_count;
         const std::uint32_t others = key.turned ? entry.forward_count : entry.backward_count;
-        const bool survives = own > others || surface.two_sided[f];
+        const bool pinned = key.turned ? entry.backward_pinned : entry.forward_pinned;
+        const bool survives = own > others || pinned;
         keep[f] = survives && f == (key.turned ? entry.backward : entry.forward);
     }
     keepFaces(surface, [&](std::size_t f) { return keep[f]; });

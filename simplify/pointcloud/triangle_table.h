@@ -38,6 +38,8 @@ public:
         std::uint32_t backward = kNone;
         std::uint32_t forward_count = 0;
         std::uint32_t backward_count = 0;
+        bool forward_pinned = false; // one of them stays whatever cancels
+        bool backward_pinned = false;
     };
 
     explicit TriangleTable(std::size_t faces)
