@@ -68,7 +68,7 @@ Result<void> checkOutput(const std::filesystem::path& path,
     std::ranges::transform(extension, extension.begin(), [](unsigned char letter) {
         return static_cast<char>(std::tolower(letter));
     });
-    if (std::ranges::find(extensions, extension) == extensions.end()) {
+    if (!extensions.empty() && std::ranges::find(extensions, extension) == extensions.end()) {
         std::string known;
         for (const std::string_view each : extensions)
             known += (known.empty() ? "" : " or ") + std::string(each);

@@ -40,7 +40,7 @@ Result<const Algorithm*> algorithmFromId(std::string_view id);
 // `all`, or ids separated by commas.
 Result<std::vector<const Algorithm*>> algorithmsFromList(std::string_view list);
 // An output that cannot work is refused before the long work: folder missing, extension not among
-// `extensions` (lower case, with dot).
+// `extensions` (lower case, with dot; none: any will do).
 Result<void> checkOutput(const std::filesystem::path& path,
                          std::span<const std::string_view> extensions);
 std::span<const std::string_view> exportExtensions(); // .glb .gltf

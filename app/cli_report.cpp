@@ -14,59 +14,6 @@ std::string dump(const Json& json) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-Json outcomeObject(const RunOutcome& outcome) {
-    Json json;
-    json["algorithm"] = outcome.algorithm;
-    json["triangles"] = outcome.lod->triangles;
-    json["unique_triangles"] = outcome.lod->unique_triangles;
-    json["instances"] = outcome.lod->instances;
-    json["bytes"] = outcome.bytes;
-    json["predicted_bytes"] = outcome.predicted_bytes;
-    const StageSeconds& seconds = outcome.seconds;
-    json["seconds"] = {{"load", seconds.load},
-                       {"sequence", seconds.sequence},
-                       {"schedule", seconds.schedule},
-                       {"readout", seconds.readout},
-                       {"write", seconds.write}};
-    if (outcome.distance)
-        json["error"] = {{"hausdorff", outcome.distance->hausdorff},
-                         {"mean", outcome.distance->mean},
-                         {"rms", outcome.distance->rms}};
-    json["notes"] = outcome.notes;
-    return json;
-}
-
-std::string tableRow(const RunOutcome& outcome, std::uint64_t all_triangles) {
-    const double share = 100.0 * static_cast<double>(outcome.lod->triangles) /
-                         static_cast<double>(std::max<std::uint64_t>(all_triangles, 1));
-    std::string hausdorff = "-";
-    std::string mean = "-";
-    if (outcome.distance) {
-        hausdorff = fmt::format("{:.4f}", outcome.distance->hausdorff);
-        mean = fmt::format("{:.5f}", outcome.distance->mean);
-    }
-    std::string build = "-";
-    if (outcome.algorithm != "original")
-        build = fmt::format("{:.2f}", outcome.seconds.sequence + outcome.seconds.schedule);
-    return fmt::format("{:<16}{:>12}{:>8.2f}{:>12}{:>11}{:>12}{:>14}{:>12}{:>9}\n",
-                       outcome.algorithm,
-                       thousands(outcome.lod->triangles),
-                       share,
-                       thousands(outcome.lod->unique_triangles),
-                       thousands(outcome.lod->instances),
-                       humanBytes(outcome.bytes),
-                       hausdorff,
-                       mean,
-                       build);
-}
-
-std::string noteLines(const RunOutcome& outcome) {
-    std::string text;
-    for (const std::string& note : outcome.notes)
-        text += fmt::format("note: {}: {}\n", outcome.algorithm, note);
-    return text;
-}
-
 std::string_view kindName(ParameterInfo::Kind kind) {
     switch (kind) {
     case ParameterInfo::Kind::Number:
@@ -144,64 +91,30 @@ std::string humanBytes(std::uint64_t bytes) {
     return fmt::format("{} B", bytes);
 }
 
+nlohmann::ordered_json outcomeObject(const RunOutcome& outcome) {
+    Json json;
+    json["algorithm"] = outcome.algorithm;
+    json["triangles"] = outcome.lod->triangles;
+    json["unique_triangles"] = outcome.lod->unique_triangles;
+    json["instances"] = outcome.lod->instances;
+    json["bytes"] = outcome.bytes;
+    json["predicted_bytes"] = outcome.predicted_bytes;
+    const StageSeconds& seconds = outcome.seconds;
+    json["seconds"] = {{"load", seconds.load},
+                       {"sequence", seconds.sequence},
+                       {"schedule", seconds.schedule},
+                       {"readout", seconds.readout},
+                       {"write", seconds.write}};
+    if (outcome.distance)
+        json["error"] = {{"hausdorff", outcome.distance->hausdorff},
+                         {"mean", outcome.distance->mean},
+                         {"rms", outcome.distance->rms}};
+    json["notes"] = outcome.notes;
+    return json;
+}
+
 std::string outcomeJson(const RunOutcome& outcome) {
     return dump(outcomeObject(outcome));
-}
-
-std::string comparisonJson(const RunOutcome& original, std::span<const RunOutcome> rows) {
-    Json json;
-    json["original"] = outcomeObject(original);
-    json["rows"] = Json::array();
-    for (const RunOutcome& row : rows)
-        json["rows"].push_back(outcomeObject(row));
-    return dump(json);
-}
-
-std::string comparisonCsv(std::span<const RunOutcome> rows) {
-    std::string text = "algorithm,triangles,unique_triangles,instances,bytes,predicted_bytes,"
-                       "seconds_load,seconds_sequence,seconds_schedule,seconds_readout,"
-                       "hausdorff,mean,rms\n";
-    for (const RunOutcome& row : rows) {
-        const StageSeconds& seconds = row.seconds;
-        text += fmt::format("{},{},{},{},{},{},{:.6f},{:.6f},{:.6f},{:.6f}",
-                            row.algorithm,
-                            row.lod->triangles,
-                            row.lod->unique_triangles,
-                            row.lod->instances,
-                            row.bytes,
-                            row.predicted_bytes,
-                            seconds.load,
-                            seconds.sequence,
-                            seconds.schedule,
-                            seconds.readout);
-        if (row.distance)
-            text += fmt::format(",{:.9g},{:.9g},{:.9g}\n",
-                                row.distance->hausdorff,
-                                row.distance->mean,
-                                row.distance->rms);
-        else
-            text += ",,,\n";
-    }
-    return text;
-}
-
-std::string comparisonTable(const RunOutcome& original, std::span<const RunOutcome> rows) {
-    std::string text = fmt::format("{:<16}{:>12}{:>8}{:>12}{:>11}{:>12}{:>14}{:>12}{:>9}\n",
-                                   "algorithm",
-                                   "triangles",
-                                   "%",
-                                   "unique",
-                                   "instances",
-                                   "size",
-                                   "Hausdorff %",
-                                   "mean %",
-                                   "build s");
-    text += tableRow(original, original.lod->triangles);
-    for (const RunOutcome& row : rows)
-        text += tableRow(row, original.lod->triangles);
-    for (const RunOutcome& row : rows)
-        text += noteLines(row);
-    return text;
 }
 
 std::string outcomeText(const RunOutcome& outcome, const SceneCounts& before) {

@@ -36,6 +36,7 @@ RunOutcome runPrepared(const RunRequest& request, const LodSourcePtr& source) {
     outcome.algorithm = request.algorithm->id;
     outcome.name = request.algorithm->short_name;
     outcome.scene = source->scene();
+    outcome.source = source;
     outcome.seconds.sequence = source->seconds_sequence;
     outcome.seconds.schedule = source->seconds_schedule;
     outcome.notes = source->notes();
@@ -47,6 +48,7 @@ RunOutcome runPrepared(const RunRequest& request, const LodSourcePtr& source) {
     outcome.seconds.readout = watch.seconds();
     outcome.predicted_bytes = bytes.bytes(source->shapeAt(resolved.position));
     outcome.bytes = outcome.predicted_bytes;
+    outcome.target_met = resolved.met;
     if (!resolved.note.empty())
         outcome.notes.push_back(resolved.note);
     return outcome;

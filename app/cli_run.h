@@ -33,6 +33,8 @@ struct RunOutcome {
     StageSeconds seconds;
     std::optional<Distance> distance;
     std::vector<std::string> notes;
+    bool target_met = true;
+    LodSourcePtr source; // null: the original
 };
 
 struct LoadedInput {

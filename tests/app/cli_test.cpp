@@ -4,6 +4,7 @@
 #include "tests/scene/scene_fixtures.h"
 
 #include <algorithm>
+#include <fmt/core.h>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -35,7 +36,8 @@ public:
         return report;
     }
 
-    // Grey pictures, as bright as the share of the original's triangles that the column keeps.
+    // Small grey pictures, as bright as the share of the original's triangles that the column
+    // keeps.
     Result<void>
     draw(const PictureRequest& request, const PictureSink& sink, const JobContext&) override {
         const double all = static_cast<double>(request.columns[0].lod->triangles);
@@ -43,8 +45,8 @@ public:
             for (std::size_t view = 0; view < request.views.size(); ++view) {
                 const double share =
                     static_cast<double>(request.columns[column].lod->triangles) / all;
-                Picture picture{request.width_px, request.height_px, {}};
-                picture.rgba.assign(std::size_t{4} * request.width_px * request.height_px,
+                Picture picture{16, 12, {}};
+                picture.rgba.assign(std::size_t{4} * 16 * 12,
                                     static_cast<std::uint8_t>(std::min(share, 1.0) * 255.0));
                 if (Result<void> taken = sink({column, view}, std::move(picture)); !taken)
                     return taken;
@@ -122,6 +124,14 @@ const std::vector<std::string> kRowKeys = {"algorithm",
                                            "triangles",
                                            "unique_triangles"};
 
+// What compare tells of a row besides.
+std::vector<std::string> comparedKeys() {
+    std::vector<std::string> keys = kRowKeys;
+    keys.insert(keys.end(), {"bytes_by_part", "image", "target_met"});
+    std::ranges::sort(keys);
+    return keys;
+}
+
 } // namespace
 
 TEST_F(CliTest, WrongUsageIsOneLineAndExitCode2) {
@@ -158,6 +168,8 @@ TEST_F(CliTest, WrongUsageIsOneLineAndExitCode2) {
         {"simplify", in, "-o", path("out.obj"), "--algorithm", "ias", "--ratio", "0.5"},
         {"compare", in},
         {"compare", in, "--algorithms", "ias,nope", "--ratio", "0.5"},
+        {"compare", in, "--algorithms", "", "--ratio", "0.5"},
+        {"compare", in, "--ratio", "0.5", "--triangles", "9"},
         {"distance", in},
         {"distance", in, in, "--samples", "0"},
         {"render", in, "-o", path("a.jpg")},
@@ -309,6 +321,12 @@ TEST_F(CliTest, AMissingFolderIsToldBeforeTheWorkAndIsExitCode1) {
                          "0.5"});
     EXPECT_EQ(ran.code, 1);
     expectOneLine(ran);
+    for (const std::string option : {"--csv", "--html"}) {
+        const Ran compared =
+            run({"compare", path("unread.glb"), "--ratio", "0.5", option, path("no/such/file")});
+        EXPECT_EQ(compared.code, 1);
+        expectOneLine(compared);
+    }
 }
 
 TEST_F(CliTest, CompareHasARowForEveryAlgorithmOfTheTable) {
@@ -319,11 +337,75 @@ TEST_F(CliTest, CompareHasARowForEveryAlgorithmOfTheTable) {
     ASSERT_EQ(json["rows"].size(), algorithms().size());
     for (std::size_t index = 0; index < algorithms().size(); ++index) {
         EXPECT_EQ(json["rows"][index]["algorithm"], std::string(algorithms()[index].id));
-        EXPECT_EQ(keysOf(json["rows"][index]), kRowKeys);
+        EXPECT_EQ(keysOf(json["rows"][index]), comparedKeys());
     }
     EXPECT_EQ(json["original"]["triangles"], 2240);
     const std::string text = contents(csv);
-    EXPECT_EQ(std::ranges::count(text, '\n'), static_cast<std::ptrdiff_t>(algorithms().size()) + 1);
+    EXPECT_EQ(std::ranges::count(text, '\n'), static_cast<std::ptrdiff_t>(algorithms().size()) + 2);
+}
+
+TEST_F(CliTest, CompareWritesEveryRowToKnowItsBytes) {
+    const Ran ran =
+        run({"compare", chair(), "--algorithms", "ias,quadric", "--ratio", "0.4", "--json"});
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    const Json json = Json::parse(ran.out);
+    const std::string file = path("chair_by_hand.glb");
+    for (const Json& row : json["rows"]) {
+        const std::string id = row["algorithm"];
+        ASSERT_EQ(run({"simplify", chair(), "-o", file, "--algorithm", id, "--ratio", "0.4"}).code,
+                  0);
+        EXPECT_EQ(row["bytes"], std::filesystem::file_size(file)) << id;
+        EXPECT_EQ(row["bytes"], row["predicted_bytes"]) << id;
+        std::uint64_t sum = 0;
+        for (const auto& [part, bytes] : row["bytes_by_part"].items())
+            sum += bytes.get<std::uint64_t>();
+        EXPECT_EQ(row["bytes"], sum) << id;
+    }
+}
+
+TEST_F(CliTest, ComparePutsTheImageDifferenceOfTheSourceIntoEveryRow) {
+    // The fake pictures are the darker the fewer triangles are kept.
+    const auto flip = [&](const std::string& ratio) {
+        const Ran ran =
+            run({"compare", chair(), "--algorithms", "ias", "--ratio", ratio, "--json"});
+        EXPECT_EQ(ran.code, 0) << ran.err;
+        return Json::parse(ran.out)["rows"][0]["image"]["flip"].get<double>();
+    };
+    const double near = flip("0.9");
+    EXPECT_GT(near, 0.0);
+    EXPECT_LT(near, flip("0.5"));
+}
+
+TEST_F(CliTest, CompareSaysHowFarARowIsFromTheTarget) {
+    const Ran ran = run({"compare", chair(), "--algorithms", "quadric-submesh", "--bytes", "1000"});
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    EXPECT_NE(ran.out.find("note: quadric-submesh: the target is missed: "), std::string::npos);
+    EXPECT_NE(ran.out.find(" % above"), std::string::npos) << ran.out;
+}
+
+TEST_F(CliTest, CompareWithoutPixelsIsCompleteButForThePictures) {
+    images = nullptr;
+    const std::string page = path("plain.html");
+    const Ran ran =
+        run({"compare", chair(), "--algorithms", "ias", "--ratio", "0.5", "--html", page});
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    EXPECT_NE(ran.out.find("no image difference"), std::string::npos) << ran.out;
+    const std::string text = contents(page);
+    EXPECT_NE(text.find("There are no pictures"), std::string::npos);
+    EXPECT_EQ(text.find("<img"), std::string::npos);
+    EXPECT_NE(text.find("<tr data-algorithm=\"ias\">"), std::string::npos);
+}
+
+TEST_F(CliTest, ComparePagesShowTheOriginalAndEveryRow) {
+    const std::string page = path("page.html");
+    const Ran ran =
+        run({"compare", chair(), "--algorithms", "ias,quadric", "--ratio", "0.5", "--html", page});
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    const std::string text = contents(page);
+    for (const std::string_view row : {"original", "ias", "quadric"})
+        EXPECT_NE(text.find(fmt::format("<tr data-algorithm=\"{}\">", row)), std::string::npos);
+    for (int index = 0; index < 3; ++index)
+        EXPECT_NE(text.find(fmt::format("<img id=\"picture-{}\"", index)), std::string::npos);
 }
 
 TEST_F(CliTest, AFileIsAtNoDistanceFromItselfAndAtSomeFromItsLod) {
@@ -430,6 +512,7 @@ TEST_F(CliTest, WithoutADisplayTheComparisonIsWrittenAsTableAndPicture) {
     std::filesystem::current_path(before);
     ASSERT_EQ(code, 0) << err.str();
     EXPECT_TRUE(std::filesystem::exists(path("lodestone-comparison.png")));
+    EXPECT_TRUE(std::filesystem::exists(path("lodestone-comparison.html")));
     EXPECT_EQ(fake_images.last.columns.size(), 3u);
     for (const std::string_view word : {"original", "ias", "quadric", "2,240"})
         EXPECT_NE(out.str().find(word), std::string::npos) << word;
