@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # ./run.sh [FILE]: installs what is missing (Debian, Ubuntu), builds the release and opens the
-# window. Without a display the program writes the comparison of the sample scene instead.
+# window. Without a display the program says so and writes the comparison of the sample scene: a
+# picture, a page (lodestone-comparison.png, .html) and a table.
 # Every argument goes to the program: ./run.sh --help, ./run.sh info FILE, ...
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
