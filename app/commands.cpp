@@ -59,19 +59,6 @@ std::optional<Target> cleanTarget(Document& document, const Target& target) {
     return clean;
 }
 
-Rgb nextColour(const Document& document, const Algorithm* algorithm, LaneId except) {
-    for (std::uint32_t shade = 0; shade < kMaximumLanes; ++shade) {
-        const Rgb colour = laneColour(algorithm, shade);
-        const bool taken = std::ranges::any_of(document.lanes, [&](const Lane& lane) {
-            return lane.id != except && lane.settings.algorithm == algorithm &&
-                   lane.settings.colour == colour;
-        });
-        if (!taken)
-            return colour;
-    }
-    return laneColour(algorithm, 0);
-}
-
 bool roomForLane(Document& document) {
     if (document.lanes.size() < kMaximumLanes)
         return true;
@@ -95,11 +82,7 @@ void run(Document& document, const AddLane& command) {
     if (!algorithm || !roomForLane(document))
         return;
     edit(document, "Add lane", 0, [&] {
-        Lane lane;
-        lane.id = document.next_lane_id++;
-        lane.settings.algorithm = *algorithm;
-        lane.settings.target = document.master;
-        lane.settings.colour = nextColour(document, *algorithm, kNoLane);
+        Lane lane = makeLane(document, *algorithm);
         document.active_lane = lane.id;
         document.lanes.push_back(std::move(lane));
     });
@@ -110,10 +93,10 @@ void run(Document& document, const DuplicateLane& command) {
     if (!original || !roomForLane(document))
         return;
     edit(document, "Duplicate lane", 0, [&] {
-        Lane lane;
-        lane.id = document.next_lane_id++;
+        Lane lane = makeLane(document, original->settings.algorithm);
+        const Rgb colour = lane.settings.colour;
         lane.settings = original->settings;
-        lane.settings.colour = nextColour(document, lane.settings.algorithm, kNoLane);
+        lane.settings.colour = colour;
         document.active_lane = lane.id;
         const auto place = document.lanes.begin() + (original - document.lanes.data()) + 1;
         document.lanes.insert(place, std::move(lane));
@@ -143,7 +126,7 @@ void run(Document& document, const SetLanes& command) {
             return;
         wanted.push_back(*algorithm);
     }
-    if (wanted.empty())
+    if (wanted.empty() || wanted.size() > kMaximumLanes)
         return;
     edit(document, "Choose lanes", 0, [&] {
         std::vector<Lane> before = std::exchange(document.lanes, {});
@@ -156,12 +139,7 @@ void run(Document& document, const SetLanes& command) {
                 same->id = kNoLane;
                 continue;
             }
-            Lane lane;
-            lane.id = document.next_lane_id++;
-            lane.settings.algorithm = algorithm;
-            lane.settings.target = document.master;
-            lane.settings.colour = laneColour(algorithm, 0);
-            document.lanes.push_back(std::move(lane));
+            document.lanes.push_back(makeLane(document, algorithm));
         }
         if (!document.findLane(document.active_lane))
             document.active_lane = document.lanes.front().id;
@@ -190,7 +168,7 @@ void run(Document& document, const SetLaneAlgorithm& command) {
         lane->settings.algorithm = *algorithm;
         lane->settings.parameters.clear();
         lane->settings.position.reset();
-        lane->settings.colour = nextColour(document, *algorithm, lane->id);
+        lane->settings.colour = freeLaneColour(document.lanes, *algorithm, lane->id);
         ++lane->revision;
     });
 }

@@ -13,7 +13,8 @@ constexpr std::array<std::string_view, 3> kFirstLanes = {"", "ias", "quadric"};
 } // namespace
 
 std::string_view jobKindName(JobKind kind) {
-    constexpr std::array<std::string_view, 4> kNames = {"load", "prepare", "export", "measure"};
+    constexpr std::array<std::string_view, 5> kNames = {
+        "load", "prepare", "export", "measure", "predict"};
     return kNames.at(static_cast<std::size_t>(kind));
 }
 
@@ -70,6 +71,15 @@ LoadedScene describeScene(ScenePtr scene, std::filesystem::path path) {
     return loaded;
 }
 
+Lane makeLane(Document& document, const Algorithm* algorithm) {
+    Lane lane;
+    lane.id = document.next_lane_id++;
+    lane.settings.algorithm = algorithm;
+    lane.settings.target = document.master;
+    lane.settings.colour = freeLaneColour(document.lanes, algorithm, kNoLane);
+    return lane;
+}
+
 void resetDocument(Document& document, LoadedScene loaded) {
     document.scene = std::move(loaded.scene);
     document.path = std::move(loaded.path);
@@ -88,12 +98,7 @@ void resetDocument(Document& document, LoadedScene loaded) {
         const Algorithm* algorithm = id.empty() ? nullptr : findAlgorithm(id);
         if (!algorithm && !id.empty())
             continue;
-        Lane lane;
-        lane.id = document.next_lane_id++;
-        lane.settings.algorithm = algorithm;
-        lane.settings.target = document.master;
-        lane.settings.colour = laneColour(algorithm, 0);
-        document.lanes.push_back(std::move(lane));
+        document.lanes.push_back(makeLane(document, algorithm));
     }
     document.active_lane = document.lanes.size() > 1 ? document.lanes[1].id : document.lanes[0].id;
     ++document.revision;

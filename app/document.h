@@ -22,7 +22,7 @@ enum class LoadState : std::uint8_t { Empty, Loading, Loaded };
 
 using JobId = std::uint64_t;
 
-enum class JobKind : std::uint8_t { Load, Prepare, Export, Measure };
+enum class JobKind : std::uint8_t { Load, Prepare, Export, Measure, Predict };
 
 std::string_view jobKindName(JobKind kind);
 
@@ -97,6 +97,10 @@ LoadedScene describeScene(ScenePtr scene, std::filesystem::path path);
 // Makes `loaded` the open document: lanes Original, IAS and Quadric (those that exist) at 20 %,
 // camera framed, history empty. Messages, recent files, shading and export options stay.
 void resetDocument(Document& document, LoadedScene loaded);
+
+// A lane that is in no list yet: its own id, the master's target, a colour no other lane of the
+// algorithm has. algorithm: nullptr for Original.
+Lane makeLane(Document& document, const Algorithm* algorithm);
 
 // World bounds of what is selected (corner boxes of its instances); empty if nothing is.
 Bounds selectionBounds(const Document& document);

@@ -96,14 +96,14 @@ struct JobQueue::Impl {
     }
 
     void launchWaiting() {
-        auto running = static_cast<std::uint32_t>(std::ranges::count_if(jobs, &Job::running));
+        const auto counts = [](const Job& job) { return job.spec.kind != JobKind::Predict; };
+        auto running = static_cast<std::uint32_t>(std::ranges::count_if(
+            jobs, [&](const Job& job) { return job.running() && counts(job); }));
         for (Job& job : jobs) {
-            if (running >= worker_threads)
-                return;
-            if (job.running())
+            if (job.running() || (counts(job) && running >= worker_threads))
                 continue;
             launch(job);
-            ++running;
+            running += counts(job) ? 1 : 0;
         }
     }
 
@@ -142,7 +142,7 @@ JobQueue::~JobQueue() {
 }
 
 JobId JobQueue::start(JobSpec spec) {
-    if (spec.kind != JobKind::Export)
+    if (spec.kind != JobKind::Export && spec.kind != JobKind::Predict)
         cancel(spec.lane, spec.kind);
     Job job;
     job.id = impl_->next_id++;

@@ -14,7 +14,23 @@ struct PreparedSource {
     std::shared_ptr<const ByteModel> bytes; // made for source->scene()
 };
 
-using JobResult = std::variant<LoadedScene, PreparedSource, ExportReport, Distance>;
+// A LOD of a source that no frame can wait for, and what is known of it.
+struct ReadOut {
+    std::shared_ptr<const Lod> lod;
+    Resolved resolved;
+    std::uint64_t predicted_bytes = 0;
+    double error_estimate = 0.0;
+    double seconds = 0.0;
+};
+
+struct PredictedSizes {
+    ScenePtr scene;
+    ExportOptions options;
+    std::shared_ptr<const ByteModel> model;
+};
+
+using JobResult =
+    std::variant<LoadedScene, PreparedSource, ExportReport, Distance, PredictedSizes, ReadOut>;
 
 struct JobSpec {
     JobKind kind = JobKind::Load;
@@ -34,13 +50,13 @@ struct FinishedJob {
 };
 
 // Newest wins: a job that is started cancels an older one of the same lane and kind, except
-// exports, which all run. A cancelled job leaves status() at once and its result is dropped; if it
-// does not look at its stop token (a library call) its thread is left alone until it returns. All
-// members: main thread.
+// exports and predictions, which all run. A cancelled job leaves status() at once and its result is
+// dropped; if it does not look at its stop token (a library call) its thread is left alone until it
+// returns. All members: main thread.
 class JobQueue {
 public:
-    // worker_threads: how many jobs run at a time, >= 1. wake: called from the job's thread when it
-    // has finished; may be empty.
+    // worker_threads: how many jobs run at a time, >= 1, predictions, which are short, not counted.
+    // wake: called from the job's thread when it has finished; may be empty.
     explicit JobQueue(std::uint32_t worker_threads, std::function<void()> wake = {});
     ~JobQueue(); // cancels everything and waits for the threads
 

@@ -70,4 +70,17 @@ Rgb laneColour(const Algorithm* algorithm, std::uint32_t earlier_lanes_of_it) {
     return Rgb{lighter(base.r, share), lighter(base.g, share), lighter(base.b, share)};
 }
 
+Rgb freeLaneColour(std::span<const Lane> lanes, const Algorithm* algorithm, LaneId except) {
+    for (std::uint32_t shade = 0; shade <= lanes.size(); ++shade) {
+        const Rgb colour = laneColour(algorithm, shade);
+        const bool taken = std::ranges::any_of(lanes, [&](const Lane& lane) {
+            return lane.id != except && lane.settings.algorithm == algorithm &&
+                   lane.settings.colour == colour;
+        });
+        if (!taken)
+            return colour;
+    }
+    return laneColour(algorithm, 0);
+}
+
 } // namespace lodestone

@@ -4,6 +4,7 @@
 #include "simplify/measure/distance.h"
 
 #include <optional>
+#include <span>
 
 namespace lodestone {
 
@@ -74,5 +75,8 @@ struct Lane {
 std::string_view laneName(const LaneSettings& settings);
 // The colour of an algorithm's lanes; further lanes of the same algorithm are lighter.
 Rgb laneColour(const Algorithm* algorithm, std::uint32_t earlier_lanes_of_it);
+
+// The first of those that no lane of that algorithm has, `except` left aside.
+Rgb freeLaneColour(std::span<const Lane> lanes, const Algorithm* algorithm, LaneId except);
 
 } // namespace lodestone

@@ -45,6 +45,27 @@ Result<JobResult> prepareSource(const BuildKey& key,
     return JobResult(std::move(prepared));
 }
 
+// Any thread. previous: shown of this source, or nullptr.
+ReadOut readOut(const LodSourcePtr& source,
+                const std::optional<Target>& target,
+                const std::optional<std::uint64_t>& position,
+                const ByteModelPtr& bytes,
+                const Lod* previous) {
+    const auto start = std::chrono::steady_clock::now();
+    ReadOut result;
+    if (position)
+        result.resolved.position = std::min(*position, source->positionCount() - 1);
+    else
+        result.resolved = source->resolve(*target, *bytes);
+    const std::uint64_t at = result.resolved.position;
+    result.lod = std::make_shared<const Lod>(source->readOut(at, previous));
+    result.predicted_bytes = bytes->bytes(source->shapeAt(at));
+    result.error_estimate = source->errorAt(at);
+    result.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return result;
+}
+
 void setShown(const Document& document, Lane& lane, std::shared_ptr<const Lod> lod) {
     LaneStatus& status = lane.status;
     status.lod = std::move(lod);
@@ -67,6 +88,11 @@ bool LaneWorker::refresh(Document& document) {
     for (Lane& lane : document.lanes)
         changed |= refreshLane(document, lane);
 
+    trimCaches(document);
+    return changed;
+}
+
+void LaneWorker::trimCaches(const Document& document) {
     std::vector<BuildKey> used;
     std::vector<ScenePtr> scenes{document.scene};
     for (const Lane& lane : document.lanes) {
@@ -76,7 +102,9 @@ bool LaneWorker::refresh(Document& document) {
     }
     sources_.trim(document.scene, used);
     byte_models_.trim(scenes);
-    return changed;
+    std::erase_if(predictions_, [&](const Prediction& prediction) {
+        return std::ranges::find(scenes, prediction.scene) == scenes.end();
+    });
 }
 
 void LaneWorker::forgetGoneLanes(const Document& document) {
@@ -95,6 +123,7 @@ bool LaneWorker::refreshLane(Document& document, Lane& lane) {
     if (work.job != 0 && !(key == work.key)) {
         jobs_.cancel(lane.id, JobKind::Prepare);
         work.job = 0;
+        work.reading.reset();
     }
     work.key = std::move(key);
     if (!lane.settings.algorithm)
@@ -112,11 +141,18 @@ bool LaneWorker::refreshLane(Document& document, Lane& lane) {
         }
         return refreshBuilding(lane, builder->job);
     }
-    const ByteModelPtr bytes = byte_models_.get(cached->source->scene(), document.export_options);
+    const ByteModelPtr bytes = byteModel(cached->source->scene(), document.export_options);
+    if (!bytes)
+        return setState(lane, LaneState::Building, 1.0);
     const LodSourcePtr source = scheduledSource(document, lane, work, *cached, bytes);
     if (!source)
         return refreshBuilding(lane, work.job);
-    const bool shown = show(document, lane, work, source, bytes);
+    Shown wanted{source, lane.settings.target, lane.settings.position, bytes};
+    if (work.failure && work.failure->revision == lane.revision)
+        return setState(lane, LaneState::Failed, 0.0, work.failure->message);
+    if (lane.settings.algorithm->family == Family::OneShot)
+        return showOneShot(lane, work, std::move(wanted));
+    const bool shown = show(document, lane, work, std::move(wanted));
     return setState(lane, LaneState::Ready, 1.0) || shown;
 }
 
@@ -130,7 +166,8 @@ bool LaneWorker::refreshBuilding(Lane& lane, JobId job) const {
 
 const LaneWorker::Work* LaneWorker::buildingElsewhere(LaneId lane, const BuildKey& key) const {
     for (const auto& [id, work] : work_)
-        if (id != lane && work.job != 0 && !work.scheduling_base && work.key == key)
+        if (id != lane && work.job != 0 && !work.scheduling_base && !work.reading &&
+            work.key == key)
             return &work;
     return nullptr;
 }
@@ -151,13 +188,14 @@ bool LaneWorker::showOriginal(const Document& document, Lane& lane, Work& work) 
         status.numbers.error_estimate = 0.0;
         status.numbers.note.clear();
         status.build_seconds = 0.0;
-        work.shown_source.reset();
+        work.shown = {};
         changed = true;
     }
-    const ByteModelPtr bytes = byte_models_.get(document.scene, document.export_options);
-    if (changed || work.shown_bytes != bytes) {
-        work.shown_bytes = bytes;
-        status.numbers.predicted_bytes = bytes->bytes(shapeOf(*document.scene, *full_lod_));
+    const ByteModelPtr bytes = byteModel(document.scene, document.export_options);
+    if (changed || work.shown.bytes != bytes) {
+        work.shown.bytes = bytes;
+        status.numbers.predicted_bytes =
+            bytes ? bytes->bytes(shapeOf(*document.scene, *full_lod_)) : 0;
         changed = true;
     }
     return changed;
@@ -222,19 +260,28 @@ void LaneWorker::startScheduling(const Lane& lane,
 }
 
 void LaneWorker::commit(Document& document, FinishedJob& finished) {
+    if (finished.kind == JobKind::Predict)
+        return commitPrediction(document, finished);
     Lane* lane = document.findLane(finished.lane);
     const auto found = work_.find(finished.lane);
     if (!lane || found == work_.end() || found->second.job != finished.id)
         return;
     Work& work = found->second;
     work.job = 0;
-    if (lane->revision != finished.revision)
+    if (lane->revision != finished.revision) {
+        work.reading.reset();
         return;
+    }
     if (!finished.result) {
+        work.reading.reset();
         work.failure = Failure{lane->revision, finished.result.error().message};
         report(document,
                Severity::Error,
                fmt::format("{}: {}", finished.label, work.failure->message));
+        return;
+    }
+    if (auto* const read_out = std::get_if<ReadOut>(&*finished.result)) {
+        commitReadOut(document, *lane, work, std::move(*read_out));
         return;
     }
     auto& prepared = std::get<PreparedSource>(*finished.result);
@@ -253,11 +300,46 @@ void LaneWorker::commit(Document& document, FinishedJob& finished) {
     sources_.insert({work.key, work.pending_schedule, std::move(prepared.source)});
 }
 
+ByteModelPtr LaneWorker::byteModel(const ScenePtr& scene, const ExportOptions& options) {
+    if (ByteModelPtr known = byte_models_.find(scene, options))
+        return known;
+    const bool started = std::ranges::any_of(predictions_, [&](const Prediction& prediction) {
+        return prediction.scene == scene && sameOptions(prediction.options, options);
+    });
+    if (started)
+        return nullptr;
+    JobSpec spec;
+    spec.kind = JobKind::Predict;
+    spec.label = "Predicting sizes";
+    spec.run = [scene, options](const JobContext&) -> Result<JobResult> {
+        return JobResult(
+            PredictedSizes{scene, options, std::make_shared<const ByteModel>(scene, options)});
+    };
+    predictions_.push_back({scene, options, jobs_.start(std::move(spec))});
+    return nullptr;
+}
+
+void LaneWorker::forgetPrediction(JobId job) {
+    std::erase_if(predictions_,
+                  [job](const Prediction& prediction) { return prediction.job == job; });
+}
+
+void LaneWorker::commitPrediction(Document& document, FinishedJob& finished) {
+    if (!finished.result) {
+        report(document, Severity::Error, finished.result.error().message);
+        return;
+    }
+    auto& sizes = std::get<PredictedSizes>(*finished.result);
+    forgetPrediction(finished.id);
+    byte_models_.insert(sizes.scene, sizes.options, std::move(sizes.model));
+}
+
 void LaneWorker::markCancelled(Document& document, LaneId lane_id) {
     const auto found = work_.find(lane_id);
     if (found == work_.end())
         return;
     found->second.job = 0;
+    found->second.reading.reset();
     const BuildKey key = found->second.key;
     for (Lane& lane : document.lanes) {
         Work& work = work_[lane.id];
@@ -271,48 +353,60 @@ void LaneWorker::retry(LaneId lane) {
         found->second.failure.reset();
 }
 
-bool LaneWorker::show(const Document& document,
-                      Lane& lane,
-                      Work& work,
-                      const LodSourcePtr& source,
-                      const ByteModelPtr& bytes) {
-    const LaneSettings& settings = lane.settings;
-    const bool same_source = work.shown_source == source;
-    if (same_source && work.shown_bytes == bytes && work.shown_position == settings.position &&
-        work.shown_target && sameTarget(*work.shown_target, settings.target))
+bool LaneWorker::Shown::matches(const Shown& other) const {
+    return source == other.source && bytes == other.bytes && position == other.position && target &&
+           other.target && sameTarget(*target, *other.target);
+}
+
+bool LaneWorker::show(const Document& document, Lane& lane, Work& work, Shown wanted) {
+    if (work.shown.matches(wanted))
         return false;
+    const Lod* const previous =
+        work.shown.source == wanted.source ? lane.status.lod.get() : nullptr;
+    ReadOut read_out =
+        readOut(wanted.source, wanted.target, wanted.position, wanted.bytes, previous);
+    work.reading = std::move(wanted);
+    commitReadOut(document, lane, work, std::move(read_out));
+    return true;
+}
 
-    const auto start = std::chrono::steady_clock::now();
-    Resolved resolved;
-    if (settings.position)
-        resolved.position = std::min(*settings.position, source->positionCount() - 1);
-    else
-        resolved = source->resolve(settings.target, *bytes);
+bool LaneWorker::showOneShot(Lane& lane, Work& work, Shown wanted) {
+    if (work.job != 0)
+        return refreshBuilding(lane, work.job);
+    if (work.shown.matches(wanted))
+        return setState(lane, LaneState::Ready, 1.0);
+    JobSpec spec;
+    spec.kind = JobKind::Prepare;
+    spec.lane = lane.id;
+    spec.revision = lane.revision;
+    spec.label = fmt::format("Computing {}", laneName(lane.settings));
+    spec.run = [wanted](const JobContext&) -> Result<JobResult> {
+        return JobResult(
+            readOut(wanted.source, wanted.target, wanted.position, wanted.bytes, nullptr));
+    };
+    work.job = jobs_.start(std::move(spec));
+    work.reading = std::move(wanted);
+    return refreshBuilding(lane, work.job);
+}
 
+void LaneWorker::commitReadOut(const Document& document, Lane& lane, Work& work, ReadOut read_out) {
     LaneStatus& status = lane.status;
-    if (!same_source || !status.lod || status.lod->position != resolved.position) {
+    const LodSourcePtr& source = work.reading->source;
+    const bool same_source = work.shown.source == source;
+    if (!same_source || !status.lod || status.lod->position != read_out.lod->position) {
         jobs_.cancel(lane.id, JobKind::Measure);
         status.measuring = false;
-        const Lod* previous = same_source ? status.lod.get() : nullptr;
-        setShown(document,
-                 lane,
-                 std::make_shared<const Lod>(source->readOut(resolved.position, previous)));
+        setShown(document, lane, std::move(read_out.lod));
     }
     status.source = source;
     status.scene = source->scene();
     status.build_seconds = source->seconds_sequence + source->seconds_schedule;
-    status.numbers.predicted_bytes = bytes->bytes(source->shapeAt(resolved.position));
-    status.numbers.error_estimate = source->errorAt(resolved.position);
-    status.numbers.note = std::move(resolved.note);
-    const std::chrono::duration<double, std::milli> elapsed =
-        std::chrono::steady_clock::now() - start;
-    status.readout_ms = elapsed.count();
-
-    work.shown_source = source;
-    work.shown_bytes = bytes;
-    work.shown_position = settings.position;
-    work.shown_target = settings.target;
-    return true;
+    status.numbers.predicted_bytes = read_out.predicted_bytes;
+    status.numbers.error_estimate = read_out.error_estimate;
+    status.numbers.note = std::move(read_out.resolved.note);
+    status.readout_ms = read_out.seconds * 1000.0;
+    work.shown = std::move(*work.reading);
+    work.reading.reset();
 }
 
 } // namespace lodestone

@@ -14,14 +14,18 @@ public:
     // Every lane once: commits nothing, starts the builds that are missing, reads out what changed.
     // Returns true if some lane's status changed.
     bool refresh(Document& document);
-    // A finished build or schedule. Dropped if the lane is gone or its revision moved on.
+    // A finished Prepare or Predict job. A lane's is dropped if it is gone or its revision moved
+    // on.
     void commit(Document& document, FinishedJob& finished);
     // The user cancelled a lane's build: it and the lanes waiting for the same build stay Failed
     // until retry() or another setting.
     void markCancelled(Document& document, LaneId lane);
     void retry(LaneId lane);
 
-    ByteModelCache& byteModels() { return byte_models_; }
+    // Predicts sizes of a scene's LODs with some options; null while a job makes it or after that
+    // has failed.
+    ByteModelPtr byteModel(const ScenePtr& scene, const ExportOptions& options);
+    void forgetPrediction(JobId job); // cancelled: asked for again, it starts anew
 
 private:
     struct Failure {
@@ -29,11 +33,26 @@ private:
         std::string message;
     };
 
+    struct Prediction {
+        ScenePtr scene;
+        ExportOptions options;
+        JobId job = 0; // of a job that is gone: failed or cancelled
+    };
+
     struct Scheduled {
         LodSourcePtr base;
         ScheduleOptions options;
         ByteModelPtr bytes; // null unless the ordering depends on it
         LodSourcePtr source;
+    };
+
+    struct Shown {
+        LodSourcePtr source;
+        std::optional<Target> target;
+        std::optional<std::uint64_t> position;
+        ByteModelPtr bytes;
+
+        bool matches(const Shown& other) const;
     };
 
     struct Work {
@@ -44,13 +63,12 @@ private:
         ByteModelPtr scheduling_bytes;
         std::optional<Failure> failure;
         Scheduled scheduled;
-        // What `status.lod` was made from.
-        LodSourcePtr shown_source;
-        std::optional<Target> shown_target;
-        std::optional<std::uint64_t> shown_position;
-        ByteModelPtr shown_bytes;
+        Shown shown;                  // what `status.lod` was made from
+        std::optional<Shown> reading; // what the job that runs reads out
     };
 
+    void commitPrediction(Document& document, FinishedJob& finished);
+    void trimCaches(const Document& document);
     void forgetGoneLanes(const Document& document);
     bool refreshLane(Document& document, Lane& lane);
     bool refreshBuilding(Lane& lane, JobId job) const;
@@ -67,16 +85,17 @@ private:
                          const LodSourcePtr& base,
                          const ScheduleOptions& options,
                          const ByteModelPtr& bytes);
-    bool show(const Document& document,
-              Lane& lane,
-              Work& work,
-              const LodSourcePtr& source,
-              const ByteModelPtr& bytes);
+    bool show(const Document& document, Lane& lane, Work& work, Shown wanted);
+    // The same for sources that take longer than a frame: a job reads out, and the newest wish
+    // follows once it is back, so that a drag sees what there is.
+    bool showOneShot(Lane& lane, Work& work, Shown wanted);
+    void commitReadOut(const Document& document, Lane& lane, Work& work, ReadOut read_out);
     const Work* buildingElsewhere(LaneId lane, const BuildKey& key) const;
 
     JobQueue& jobs_;
     SourceCache sources_;
     ByteModelCache byte_models_;
+    std::vector<Prediction> predictions_; // not in byte_models_ yet
     std::map<LaneId, Work> work_;
     std::shared_ptr<const Lod> full_lod_; // of full_lod_scene_
     ScenePtr full_lod_scene_;

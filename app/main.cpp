@@ -1,6 +1,7 @@
 // Where the program starts. It and the files in app/main/ are the only ones that know every room:
 // they give the command line its pixels and open the window.
 #include "app/cli.h"
+#include "app/log.h"
 #include "app/main/headless_images.h"
 #include "app/signals.h"
 #ifdef LODESTONE_WITH_WINDOW
@@ -32,6 +33,7 @@ int openWindow(const WindowRequest& request, const CliEnvironment& environment) 
 #endif
 
 int runProgram(int argc, char** argv) {
+    logToStderr();
     const SignalWatcher signals;
     const std::unique_ptr<ImageSource> images = makeHeadlessImages();
     const CliEnvironment environment{std::cout,

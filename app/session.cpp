@@ -150,6 +150,8 @@ struct Session::Impl {
     void afterCancel(const JobStatus& job) {
         if (job.kind == JobKind::Prepare)
             lanes.markCancelled(document, job.lane);
+        if (job.kind == JobKind::Predict)
+            lanes.forgetPrediction(job.id);
         if (job.kind == JobKind::Load)
             document.load_state = document.scene ? LoadState::Loaded : LoadState::Empty;
         if (Lane* lane = document.findLane(job.lane); lane && job.kind == JobKind::Measure)
@@ -185,6 +187,7 @@ struct Session::Impl {
             commitLoad(finished);
             break;
         case JobKind::Prepare:
+        case JobKind::Predict:
             lanes.commit(document, finished);
             break;
         case JobKind::Export:
@@ -350,9 +353,8 @@ std::uint64_t Session::predictedBytes(LaneId lane_id, const ExportOptions& optio
     if (!lane || !lane->status.lod)
         return 0;
     const LaneStatus& status = lane->status;
-    return impl_->lanes.byteModels()
-        .get(status.scene, options)
-        ->bytes(shapeOf(*status.scene, *status.lod));
+    const ByteModelPtr model = impl_->lanes.byteModel(status.scene, options);
+    return model ? model->bytes(shapeOf(*status.scene, *status.lod)) : 0;
 }
 
 void Session::setFrameTime(LaneId lane_id, double frame_ms) {

@@ -33,7 +33,7 @@ public:
     bool updateUntilIdle(double timeout_s);
 
     // Exact size of a lane's LOD written with other options, for the export dialog. Cached per
-    // scene and options. 0 if the lane shows nothing.
+    // scene and options. 0 if the lane shows nothing, and while a job works it out.
     std::uint64_t predictedBytes(LaneId lane, const ExportOptions& options);
     // The window reports what drawing a lane cost.
     void setFrameTime(LaneId lane, double frame_ms);

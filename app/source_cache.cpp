@@ -8,10 +8,6 @@ namespace {
 
 constexpr std::size_t kUnusedSourcesKept = 2;
 
-bool sameOptions(const ExportOptions& a, const ExportOptions& b) {
-    return a.instancing == b.instancing && a.container == b.container;
-}
-
 } // namespace
 
 BuildKey buildKey(const ScenePtr& scene, const LaneSettings& settings) {
@@ -21,6 +17,10 @@ BuildKey buildKey(const ScenePtr& scene, const LaneSettings& settings) {
             key.parameters[std::string(info.id)] =
                 parameterValue(*settings.algorithm, settings.parameters, info.id);
     return key;
+}
+
+bool sameOptions(const ExportOptions& a, const ExportOptions& b) {
+    return a.instancing == b.instancing && a.container == b.container;
 }
 
 bool sameSchedule(const ScheduleOptions& a, const ScheduleOptions& b) {
@@ -52,19 +52,11 @@ void SourceCache::trim(const ScenePtr& scene, std::span<const BuildKey> used) {
     });
 }
 
-const ByteModelCache::Entry* ByteModelCache::find(const ScenePtr& scene,
-                                                  const ExportOptions& options) const {
+ByteModelPtr ByteModelCache::find(const ScenePtr& scene, const ExportOptions& options) const {
     const auto found = std::ranges::find_if(entries_, [&](const Entry& entry) {
         return entry.scene == scene && sameOptions(entry.options, options);
     });
-    return found == entries_.end() ? nullptr : &*found;
-}
-
-ByteModelPtr ByteModelCache::get(const ScenePtr& scene, const ExportOptions& options) {
-    if (const Entry* entry = find(scene, options))
-        return entry->model;
-    entries_.push_back({scene, options, std::make_shared<const ByteModel>(scene, options)});
-    return entries_.back().model;
+    return found == entries_.end() ? nullptr : found->model;
 }
 
 void ByteModelCache::insert(const ScenePtr& scene,

@@ -14,6 +14,7 @@ struct BuildKey {
 };
 
 BuildKey buildKey(const ScenePtr& scene, const LaneSettings& settings);
+bool sameOptions(const ExportOptions& a, const ExportOptions& b);
 bool sameSchedule(const ScheduleOptions& a, const ScheduleOptions& b);
 
 struct CachedSource {
@@ -38,7 +39,7 @@ using ByteModelPtr = std::shared_ptr<const ByteModel>;
 
 class ByteModelCache {
 public:
-    ByteModelPtr get(const ScenePtr& scene, const ExportOptions& options); // made if absent
+    ByteModelPtr find(const ScenePtr& scene, const ExportOptions& options) const; // null if absent
     void insert(const ScenePtr& scene, const ExportOptions& options, ByteModelPtr model);
     // Forgets models of scenes that are not among `scenes`.
     void trim(std::span<const ScenePtr> scenes);
@@ -49,8 +50,6 @@ private:
         ExportOptions options;
         ByteModelPtr model;
     };
-
-    const Entry* find(const ScenePtr& scene, const ExportOptions& options) const;
 
     std::vector<Entry> entries_;
 };

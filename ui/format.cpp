@@ -48,6 +48,8 @@ std::string formatShortCount(std::uint64_t count) {
 }
 
 std::string formatBytes(std::uint64_t size_bytes) {
+    if (size_bytes == 0)
+        return "\u2026"; // not known yet
     constexpr std::array<const char*, 4> kUnits = {" KiB", " MiB", " GiB", " TiB"};
     if (size_bytes < 1024)
         return std::to_string(size_bytes) + " B";

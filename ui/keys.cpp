@@ -1,4 +1,5 @@
 #include "ui/camera_gestures.h"
+#include "ui/lane_presets.h"
 #include "ui/panels.h"
 #include "ui/shortcuts.h"
 
@@ -22,7 +23,7 @@ constexpr double kScaleStep = 1.1;
 constexpr DragKey kAnimationDrag = 0x414e494d45ull; // a whole animation is one undo step
 constexpr DragKey kStepDrag = 0x5354455053ull; // collapsing while a key is held is one undo step
 
-constexpr std::array<Shortcut, 29> kShortcuts = {{
+constexpr std::array<Shortcut, 30> kShortcuts = {{
     {"Left drag", "orbit (also Alt+left, middle)"},
     {"Right drag", "pan (also Shift+middle)"},
     {"Wheel", "zoom"},
@@ -44,6 +45,7 @@ constexpr std::array<Shortcut, 29> kShortcuts = {{
     {"V", "split back two edges"},
     {"Ctrl+O", "open a file"},
     {"Ctrl+E", "export the active lane"},
+    {"Ctrl+3 6 9", "IAS vs Quadric, six methods, all nine"},
     {"Ctrl+Z", "undo"},
     {"Ctrl+Shift+Z", "redo"},
     {"Ctrl+Q", "quit"},
@@ -69,6 +71,12 @@ void controlKeys(const Ui& ui, const PanelInput& input, WindowState& state) {
         openExportDialog(input, state);
     if (pressed('Q'))
         state.open(Dialog::Quit);
+    for (const LanePreset& preset : lanePresets())
+        if (const auto ids = presetLanes(preset);
+            pressed(preset.key) && input.document.scene && ids.size() > 1) {
+            state.cell_count = 0;
+            ui.push(SetLanes{ids});
+        }
     const bool shift = ImGui::GetIO().KeyShift;
     if (held('Z') && !shift)
         ui.push(Undo{});

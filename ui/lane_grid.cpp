@@ -11,17 +11,26 @@ namespace lodestone::ui {
 
 namespace {
 
-constexpr float kHeaderHeight = 27.0f;
-constexpr float kFooterHeight = 27.0f;
-constexpr double kPreferredAspect = 1.3; // of a picture
+constexpr float kBarHeight = 27.0f;        // header and footer of a view
+constexpr float kCompactBarHeight = 21.0f; // where cells are low
+constexpr float kLowCell = 190.0f;         // height
+constexpr double kPreferredAspect = 1.3;   // of a picture
 
 struct Cells {
     int columns = 1;
     int rows = 1;
 };
 
-// Columns and rows that leave the largest picture of the preferred aspect.
+// Four, six and nine views stand as people compare them; else columns and rows that leave the
+// largest picture of the preferred aspect.
 Cells arrange(int count, double width, double height, double bars_height) {
+    const bool wide = width > height;
+    if (count == 4)
+        return {2, 2};
+    if (count == 6)
+        return wide ? Cells{3, 2} : Cells{2, 3};
+    if (count == 9)
+        return {3, 3};
     Cells best;
     double best_area = -1.0;
     for (int columns = 1; columns <= count; ++columns) {
@@ -172,9 +181,9 @@ void drawFooter(const Ui& ui, const Lane& lane, const Area& area) {
     if (too_wide())
         words.time.clear();
     if (too_wide())
-        words.ratio.clear();
-    if (too_wide())
         words.triangles = formatShortCount(lane.status.numbers.triangles);
+    if (too_wide())
+        words.ratio.clear();
     if (too_wide())
         words.rate.clear();
     float x = area.position.x + ui.px(10);
@@ -295,8 +304,9 @@ void drawCell(
     ImGui::PushID(static_cast<int>(lane.id));
     Ui named = ui;
     named.panel = "View " + std::to_string(lane.id);
-    const float header = std::round(ui.px(kHeaderHeight));
-    const float footer = std::round(ui.px(kFooterHeight));
+    const bool low = area.size.y < ui.px(kLowCell);
+    const float header = std::round(ui.px(low ? kCompactBarHeight : kBarHeight));
+    const float footer = header;
     const float picture_height = std::max(1.0f, area.size.y - header - footer);
     drawPicture(named,
                 input,
@@ -340,7 +350,7 @@ void drawLaneGrid(Ui ui, const PanelInput& input, WindowState& state, const Area
     beginPanel("Grid", area.position, area.size, PanelScroll::None);
     const std::vector<const Lane*> lanes = shownLanes(input.document, state.cell_count);
     const int count = std::max({1, state.cell_count, static_cast<int>(lanes.size())});
-    const auto bars = static_cast<double>(ui.px(kHeaderHeight + kFooterHeight));
+    const auto bars = static_cast<double>(ui.px(2 * kBarHeight));
     const Cells cells =
         arrange(count, static_cast<double>(area.size.x), static_cast<double>(area.size.y), bars);
     const float line = ui.theme.hairline();

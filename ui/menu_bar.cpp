@@ -1,5 +1,6 @@
 #include "scene/generate.h"
 #include "ui/camera_gestures.h"
+#include "ui/lane_presets.h"
 #include "ui/lane_text.h"
 #include "ui/panels.h"
 #include "ui/target_slider.h"
@@ -93,16 +94,15 @@ void viewMenu(const Ui& ui, const Document& document, WindowState& state) {
         state.full_screen_toggled = true;
 }
 
-void lanesMenu(const Ui& ui, const Document& document) {
+void lanesMenu(const Ui& ui, const Document& document, WindowState& state) {
     const LaneId active = document.active_lane;
     const bool open = document.scene != nullptr;
-    if (menuItem(ui, "IAS vs Quadric", nullptr, false, open))
-        ui.push(SetLanes{{"", "ias", "quadric"}});
-    if (menuItem(ui, "All algorithms", nullptr, false, open)) {
-        SetLanes all{{""}};
-        for (const Algorithm& algorithm : algorithms())
-            all.algorithms.emplace_back(algorithm.id);
-        ui.push(all);
+    for (const LanePreset& preset : lanePresets()) {
+        const std::vector<std::string> ids = presetLanes(preset);
+        if (menuItem(ui, preset.name, preset.shortcut, false, open && ids.size() > 1)) {
+            state.cell_count = 0;
+            ui.push(SetLanes{ids});
+        }
     }
     ImGui::Separator();
     if (ImGui::BeginMenu("Add lane", document.scene != nullptr)) {
@@ -205,7 +205,7 @@ void drawMenuBar(Ui ui, const PanelInput& input, WindowState& state) {
         menu(ui, "File", [&] { fileMenu(ui, input, state); });
         menu(ui, "Edit", [&] { editMenu(ui, input.document); });
         menu(ui, "View", [&] { viewMenu(ui, input.document, state); });
-        menu(ui, "Lanes", [&] { lanesMenu(ui, input.document); });
+        menu(ui, "Lanes", [&] { lanesMenu(ui, input.document, state); });
         menu(ui, "LOD", [&] { lodMenu(ui, input, state); });
         menu(ui, "Help", [&] {
             if (menuItem(ui, "Keys and mouse", "F1"))

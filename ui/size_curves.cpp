@@ -1,5 +1,7 @@
 #include "ui/size_curves.h"
 
+#include "scene/thread_priority.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,17 +10,19 @@ namespace lodestone::ui {
 namespace {
 
 constexpr std::size_t kPointCount = 40;
+constexpr std::size_t kFewPoints = 9; // where each is computed anew
 constexpr double kSmallestRatio = 0.001;
 
 SizeCurve computeCurve(const LodSource& source,
                        const ExportOptions& options,
+                       std::size_t point_count,
                        std::uint64_t original_triangles,
                        const std::stop_token& stop) {
     const ByteModel bytes(source.scene(), options);
     SizeCurve curve;
-    for (std::size_t at = 0; at < kPointCount && !stop.stop_requested(); ++at) {
+    for (std::size_t at = 0; at < point_count && !stop.stop_requested(); ++at) {
         // Denser towards few triangles, where curves bend.
-        const double along = static_cast<double>(at) / static_cast<double>(kPointCount - 1);
+        const double along = static_cast<double>(at) / static_cast<double>(point_count - 1);
         const Target target{Target::Kind::Ratio, std::max(kSmallestRatio, along * along)};
         const std::uint64_t position = source.resolve(target, bytes).position;
         const double ratio = static_cast<double>(source.trianglesAt(position)) /
@@ -42,7 +46,9 @@ void SizeCurves::start(Key key, std::uint64_t original_triangles) {
     task_ = std::make_shared<Task>();
     task_->key = std::move(key);
     thread_ = std::jthread([task = task_, original_triangles](const std::stop_token& stop) {
-        task->curve = computeCurve(*task->key.source, task->key.options, original_triangles, stop);
+        const BackgroundPriority priority;
+        task->curve = computeCurve(
+            *task->key.source, task->key.options, task->key.point_count, original_triangles, stop);
         task->done.store(true, std::memory_order_release);
     });
 }
@@ -64,7 +70,12 @@ bool SizeCurves::update(const Document& document) {
     for (const Lane& lane : document.lanes) {
         if (!lane.status.source || busy())
             continue;
-        Key key{lane.id, lane.status.source, document.export_options};
+        const bool one_shot =
+            lane.settings.algorithm && lane.settings.algorithm->family == Family::OneShot;
+        Key key{lane.id,
+                lane.status.source,
+                document.export_options,
+                one_shot ? kFewPoints : kPointCount};
         const auto same = [&](const Known& known) { return known.key.matches(key); };
         if (std::none_of(known_.begin(), known_.end(), same))
             start(std::move(key), document.counts.triangles);

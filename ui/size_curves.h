@@ -33,6 +33,7 @@ private:
         LaneId lane = kNoLane;
         LodSourcePtr source;
         ExportOptions options;
+        std::size_t point_count = 0; // of the curve
 
         bool matches(const Key& other) const;
     };

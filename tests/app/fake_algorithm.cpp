@@ -104,4 +104,13 @@ const Algorithm& fakeAlgorithm() {
     return algorithm;
 }
 
+const Algorithm& fakeOneShotAlgorithm() {
+    static const Algorithm algorithm = [] {
+        Algorithm made = makeFakeAlgorithm();
+        made.family = Family::OneShot;
+        return made;
+    }();
+    return algorithm;
+}
+
 } // namespace lodestone::fixtures

@@ -49,5 +49,6 @@ FakeBuilds& fakeBuilds();
 void resetFakeBuilds();
 // A row with one parameter, "strength" 0..10, default 1.
 const Algorithm& fakeAlgorithm();
+const Algorithm& fakeOneShotAlgorithm(); // the same as one of Family::OneShot
 
 } // namespace lodestone::fixtures

@@ -21,11 +21,8 @@ protected:
 
     ~LaneWorkerTest() override { fixtures::fakeBuilds().hold = false; }
 
-    LaneId addFakeLane() {
-        Lane lane;
-        lane.id = document.next_lane_id++;
-        lane.settings.algorithm = &fixtures::fakeAlgorithm();
-        document.lanes.push_back(std::move(lane));
+    LaneId addFakeLane(const Algorithm& algorithm = fixtures::fakeAlgorithm()) {
+        document.lanes.push_back(makeLane(document, &algorithm));
         return document.lanes.back().id;
     }
 
@@ -73,6 +70,24 @@ TEST_F(LaneWorkerTest, ALaneIsBuiltInTheBackgroundAndThenShowsItsTarget) {
     EXPECT_EQ(lane(id).status.numbers.triangles, 12u);
     EXPECT_DOUBLE_EQ(lane(id).status.numbers.ratio, 0.2);
     EXPECT_GT(lane(id).status.numbers.predicted_bytes, 0u);
+}
+
+TEST_F(LaneWorkerTest, AOneShotLaneFollowsATargetInAJobAndKeepsItsPictureMeanwhile) {
+    const LaneId id = addFakeLane(fixtures::fakeOneShotAlgorithm());
+    settle();
+    const auto shown = lane(id).status.lod;
+    ASSERT_TRUE(shown);
+    for (const double triangles : {30.0, 40.0}) {
+        applyCommand(document, SetLaneTarget{id, {Target::Kind::Triangles, triangles}});
+        frame();
+        EXPECT_FALSE(jobs.idle()) << "no frame waits for it";
+    }
+    EXPECT_TRUE(lane(id).status.lod);
+    settle();
+    EXPECT_EQ(lane(id).status.state, LaneState::Ready);
+    EXPECT_EQ(lane(id).status.numbers.triangles, 40u) << "the newest target wins";
+    EXPECT_GT(lane(id).status.numbers.predicted_bytes, 0u);
+    EXPECT_EQ(fixtures::fakeBuilds().started, 1) << "a target needs no other build";
 }
 
 TEST_F(LaneWorkerTest, ATargetIsFollowedInTheSameFrameWithoutAJob) {
@@ -242,6 +257,10 @@ TEST_F(LaneWorkerTest, ExportOptionsChangeThePredictedSizeAndNotTheLod) {
     const std::uint64_t before = lane(id).status.numbers.predicted_bytes;
     applyCommand(document, SetExportOptions{{Instancing::Expand, Container::Glb}});
     frame();
+    EXPECT_FALSE(jobs.idle()) << "no frame waits for the prediction";
+    EXPECT_EQ(lane(id).status.lod, lod) << "the last good picture stays";
+    settle();
+    EXPECT_EQ(lane(id).status.state, LaneState::Ready);
     EXPECT_EQ(lane(id).status.lod, lod);
     EXPECT_NE(lane(id).status.numbers.predicted_bytes, before);
 }

@@ -133,6 +133,8 @@ TEST_F(SessionTest, ASizeForOtherExportOptionsIsWhatAnExportWithThemWrites) {
     send(session, OpenSample{"chair"});
     const LaneId id = session.document().lanes[1].id;
     const ExportOptions nodes{Instancing::Nodes, Container::Glb};
+    EXPECT_EQ(session.predictedBytes(id, nodes), 0u) << "no frame waits for it";
+    ASSERT_TRUE(session.updateUntilIdle(30.0));
     const std::uint64_t predicted = session.predictedBytes(id, nodes);
     send(session, SetExportOptions{nodes});
     send(session, Export{id, folder / "nodes.glb"});

@@ -291,15 +291,43 @@ def test_opened_files_are_offered_again(folder):
 
 def test_presets_choose_the_lanes_and_undo_brings_the_old_ones_back(folder):
     with open_chair(folder) as window:
-        known = len(json.loads(run([BINARY, "--list-algorithms", "--json"]))["algorithms"])
-        for name, count in (("All algorithms", known + 1), ("IAS vs Quadric", 3)):
+        known = {row["id"] for row in
+                 json.loads(run([BINARY, "--list-algorithms", "--json"]))["algorithms"]}
+        six = known & {"vt", "fad", "ivdd", "ss", "vtd", "fass"}
+        nine = 1 + len(six | (known & {"quadric", "ias"}))
+        for name, count in (("All nine", nine), ("IAS vs Quadric", 3)):
             window.click("Menu/Lanes")
             window.click(f"Menu/Lanes/{name}")
             window.wait(f"{count} lanes", lambda c=count: window.document()["lanes"] == c)
+        if len(six) > 1:
+            window.key("ctrl+6")
+            window.wait("the six", lambda: window.document()["lanes"] == len(six))
+            window.key("ctrl+z")
         window.key("ctrl+z")
-        window.wait("all lanes again", lambda: window.document()["lanes"] == known + 1)
+        window.wait("nine lanes again", lambda: window.document()["lanes"] == nine)
         window.key("ctrl+z")
         window.wait("the first three again", lambda: window.document()["lanes"] == 3)
+
+
+def test_all_nine_stand_in_rows_of_three_at_equal_triangles(folder):
+    with open_chair(folder) as window:
+        window.key("ctrl+9")
+        window.wait("the lanes", lambda: window.document()["lanes"] > 3)
+        lanes = [entry for (kind, _), entry in window.objects.items() if kind == "lane"]
+        window.wait("all ready", lambda: all(entry["state"] == "ready" for (kind, _), entry in
+                                             window.objects.items() if kind == "lane"))
+        window.wait_still()
+        original = window.lane("original")["triangles"]
+        for name in {entry["algorithm"] for entry in lanes} - {"original"}:
+            lane = window.lane(name)
+            assert 0 < lane["triangles"] <= 0.21 * original or lane["note"], f"{name}: {lane}"
+            assert lane["bytes"] > 0, name
+            picture = window.picture(window.rect(f"View {lane['name']}/picture"))
+            assert coloured_share(picture) > 0.005, f"{name} shows nothing"
+        if window.document()["lanes"] == 9:
+            rects = [window.rect(f"View {entry['name']}/picture") for entry in lanes]
+            assert len({round(rect[0]) for rect in rects}) == 3
+            assert len({round(rect[1]) for rect in rects}) == 3
 
 
 def test_numpad_keys_look_from_the_sides(folder):
