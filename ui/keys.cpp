@@ -23,7 +23,7 @@ constexpr double kScaleStep = 1.1;
 constexpr DragKey kAnimationDrag = 0x414e494d45ull; // a whole animation is one undo step
 constexpr DragKey kStepDrag = 0x5354455053ull; // collapsing while a key is held is one undo step
 
-constexpr std::array<Shortcut, 30> kShortcuts = {{
+constexpr std::array<Shortcut, 31> kShortcuts = {{
     {"Left drag", "orbit (also Alt+left, middle)"},
     {"Right drag", "pan (also Shift+middle)"},
     {"Wheel", "zoom"},
@@ -34,6 +34,7 @@ constexpr std::array<Shortcut, 30> kShortcuts = {{
     {"1 / 0", "left drag moves the light / the camera"},
     {"A", "animate the active lane down and up"},
     {"Tab", "hide or show the panels"},
+    {"Space", "grid, or two lanes split by a divider"},
     {"N", "normals"},
     {"L", "wireframe"},
     {"S / Shift+S", "smaller / larger"},
@@ -109,6 +110,10 @@ void viewKeys(const Ui& ui, DisplayOptions view, WindowState& state) {
     if (pressed('N')) {
         view.shading =
             view.shading == ShadingMode::Normals ? ShadingMode::Lit : ShadingMode::Normals;
+        ui.push(SetView{view});
+    }
+    if (pressed(' ')) {
+        view.compare = view.compare == CompareMode::Split ? CompareMode::Grid : CompareMode::Split;
         ui.push(SetView{view});
     }
     if (pressed('L')) {

@@ -71,6 +71,11 @@ void viewMenu(const Ui& ui, const Document& document, WindowState& state) {
         view.wireframe = !view.wireframe;
         ui.push(SetView{view});
     }
+    const bool split = view.compare == CompareMode::Split;
+    if (menuItem(ui, "Split", "Space", split)) {
+        view.compare = split ? CompareMode::Grid : CompareMode::Split;
+        ui.push(SetView{view});
+    }
     ImGui::Separator();
     if (menuItem(ui, "Frame all", "Home"))
         ui.push(FrameScene{});

@@ -330,6 +330,25 @@ def test_all_nine_stand_in_rows_of_three_at_equal_triangles(folder):
             assert len({round(rect[1]) for rect in rects}) == 3
 
 
+def test_space_splits_two_lanes_and_the_divider_wipes_between_them(folder):
+    with open_chair(folder) as window:
+        window.click(f"View {window.lane_id('ias')}/picture")
+        window.drag(f"Lane {window.lane_id('ias')}/Target", (0.45, 0.5), (0.02, 0.5))
+        window.key("space")
+        window.wait("the divider", lambda: window.get("widget", "Split/divider"))
+        rect = window.rect("Split/picture")
+        pictures = []
+        for place in (0.98, 0.02):  # nearly all of the original, then nearly all of IAS
+            x, y, width, height = window.rect("Split/divider")
+            end = (rect[0] + place * rect[2] - x) / width
+            window.drag("Split/divider", (0.5, 0.2), (end, 0.2))
+            window.wait_still()
+            pictures.append(window.picture(rect))
+        assert differing_share(*pictures) > 0.01, "both sides show the same"
+        window.key("space")
+        window.wait("the grid", lambda: window.state()["views"] == 3)
+
+
 def test_numpad_keys_look_from_the_sides(folder):
     with open_chair(folder) as window:
         rect = window.rect(f"View {window.lane_id('original')}/picture")

@@ -1,0 +1,248 @@
+#include "ui/lane_view.h"
+
+#include "ui/camera_gestures.h"
+#include "ui/format.h"
+#include "ui/lane_text.h"
+#include "ui/widgets.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lodestone::ui {
+
+namespace {
+
+void laneMenu(const Ui& ui, const PanelInput& input, WindowState& state, const Lane& lane) {
+    const auto& lanes = input.document.lanes;
+    const auto place = std::find_if(
+        lanes.begin(), lanes.end(), [&](const Lane& other) { return other.id == lane.id; });
+    const auto index = static_cast<std::uint32_t>(place - lanes.begin());
+    if (ImGui::BeginMenu("Algorithm")) {
+        if (menuItem(ui, "Original", nullptr, !lane.settings.algorithm))
+            ui.push(SetLaneAlgorithm{lane.id, {}});
+        for (const Algorithm& algorithm : algorithms())
+            if (menuItem(ui, algorithm.name, nullptr, lane.settings.algorithm == &algorithm))
+                ui.push(SetLaneAlgorithm{lane.id, std::string(algorithm.id)});
+        ImGui::EndMenu();
+    }
+    if (menuItem(ui, "Duplicate", nullptr))
+        ui.push(DuplicateLane{lane.id});
+    if (menuItem(ui, "Move left", nullptr, false, index > 0))
+        ui.push(MoveLane{lane.id, index - 1});
+    if (menuItem(ui, "Move right", nullptr, false, index + 1 < lanes.size()))
+        ui.push(MoveLane{lane.id, index + 1});
+    ImGui::Separator();
+    if (menuItem(ui, "Measure distance", nullptr, false, lane.status.lod != nullptr))
+        ui.push(MeasureLane{lane.id});
+    if (menuItem(ui, "Export LOD\u2026", "Ctrl+E", false, lane.status.lod != nullptr)) {
+        ui.push(SetActiveLane{lane.id});
+        openExportDialog(input, state);
+    }
+    ImGui::Separator();
+    if (menuItem(ui, "Remove", nullptr, false, lanes.size() > 1))
+        ui.push(RemoveLane{lane.id});
+}
+
+} // namespace
+
+void drawLaneHeader(
+    const Ui& ui, const PanelInput& input, WindowState& state, const Lane& lane, const Area& area) {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(area.position, area.end(), color::kPanel);
+    const float middle = area.position.y + area.size.y * 0.5f;
+    const float text_y = middle - ImGui::GetTextLineHeight() * 0.5f;
+    float x = area.position.x + ui.px(10);
+    list.AddCircleFilled({x + ui.px(4), middle}, ui.px(4), packed(lane.settings.colour), 24);
+    x += ui.px(16);
+    const std::string_view name = laneName(lane.settings);
+    drawText(ui, {x, text_y}, Align::Left, name, {ui.theme.fonts.semibold});
+    x += textWidth(ui, name, ui.theme.fonts.semibold) + ui.px(8);
+    const float menu_width = ui.px(26);
+    const float menu_x = area.end().x - menu_width - ui.px(4);
+    drawText(ui,
+             {x, text_y},
+             Align::Left,
+             fitText(ui, laneSummary(input.document, lane), std::max(0.0f, menu_x - x)),
+             {nullptr, color::kSecondary});
+    ImGui::SetCursorScreenPos({menu_x, area.position.y + ui.px(2)});
+    if (ImGui::InvisibleButton("menu", {menu_width, area.size.y - ui.px(4)}))
+        ImGui::OpenPopup("lane menu");
+    ui.record("menu");
+    const ImU32 ink = ImGui::IsItemHovered() ? color::kText : color::kSecondary;
+    for (int dot = -1; dot <= 1; ++dot)
+        list.AddCircleFilled(
+            {menu_x + menu_width * 0.5f + ui.px(4) * static_cast<float>(dot), middle},
+            ui.px(1.3f),
+            ink,
+            12);
+    if (ImGui::BeginPopup("lane menu")) {
+        laneMenu(ui, input, state, lane);
+        ImGui::EndPopup();
+    }
+}
+
+namespace {
+
+struct FooterWords {
+    std::string triangles;
+    std::string ratio;
+    std::string size;
+    std::string time;
+    std::string rate;
+};
+
+FooterWords footerWords(const Lane& lane) {
+    const LaneNumbers& numbers = lane.status.numbers;
+    FooterWords words;
+    if (!lane.status.lod)
+        return words;
+    words.triangles = formatCount(numbers.triangles);
+    words.ratio = formatRatio(numbers.ratio);
+    words.size = formatBytes(numbers.predicted_bytes);
+    if (lane.status.frame_ms > 0.0) {
+        words.time = formatMilliseconds(lane.status.frame_ms);
+        words.rate = formatRate(framesPerSecond(lane));
+    }
+    return words;
+}
+
+} // namespace
+
+// Left: triangles and ratio; middle: size; right: time and rate. What does not fit is left out.
+void drawLaneFooter(const Ui& ui, const Lane& lane, const Area& area) {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(area.position, area.end(), color::kPanel);
+    const float y = area.position.y + (area.size.y - ImGui::GetTextLineHeight()) * 0.5f;
+    const float inner = area.size.x - ui.px(20);
+    FooterWords words = footerWords(lane);
+    if (words.triangles.empty())
+        return;
+    ImFont* const bold = ui.theme.fonts.semibold;
+    const float gap = ui.px(8);
+    const auto left_width = [&] {
+        return textWidth(ui, words.triangles, bold) + textWidth(ui, " tri") +
+               (words.ratio.empty() ? 0.0f : gap + textWidth(ui, words.ratio));
+    };
+    const auto right_width = [&] {
+        return words.rate.empty()
+                   ? 0.0f
+                   : textWidth(ui, words.rate, bold) + textWidth(ui, " fps") +
+                         (words.time.empty() ? 0.0f : gap + textWidth(ui, words.time));
+    };
+    const auto size_width = textWidth(ui, words.size, bold);
+    const auto too_wide = [&] {
+        return left_width() + size_width + right_width() + 2 * gap > inner;
+    };
+    if (too_wide())
+        words.time.clear();
+    if (too_wide())
+        words.triangles = formatShortCount(lane.status.numbers.triangles);
+    if (too_wide())
+        words.ratio.clear();
+    if (too_wide())
+        words.rate.clear();
+    float x = area.position.x + ui.px(10);
+    const auto put = [&](std::string_view text, const TextStyle& style) {
+        drawText(ui, {x, y}, Align::Left, text, style);
+        x += textWidth(ui, text, style.font);
+    };
+    put(words.triangles, {bold});
+    put(" tri", {});
+    x += gap;
+    put(words.ratio, {nullptr, color::kSecondary});
+    const float right_begin = area.end().x - ui.px(10) - right_width();
+    const float centred = area.position.x + (area.size.x - size_width) * 0.5f;
+    const float left_end = area.position.x + ui.px(10) + left_width() + gap;
+    const float size_x =
+        std::clamp(centred, left_end, std::max(left_end, right_begin - gap - size_width));
+    drawText(ui, {size_x, y}, Align::Left, words.size, {bold});
+    if (words.rate.empty())
+        return;
+    x = right_begin;
+    if (!words.time.empty()) {
+        put(words.time, {nullptr, color::kSecondary});
+        x += gap;
+    }
+    put(words.rate, {bold});
+    put(" fps", {});
+}
+
+// Over the picture: what the lane is busy with, or why it shows nothing.
+void drawLaneState(
+    const Ui& ui, WindowState& state, const Lane& lane, bool draft, const Area& area) {
+    const LaneStatus& status = lane.status;
+    const ImU32 colour = packed(lane.settings.colour);
+    const bool busy = status.state == LaneState::Building || status.state == LaneState::Queued;
+    const ImVec2 middle = area.position + ImVec2(area.size.x * 0.5f, area.size.y * 0.5f);
+    if (busy) {
+        const bool empty = !status.lod;
+        const ImVec2 at = empty ? middle - ImVec2(0, ui.px(14))
+                                : ImVec2(area.end().x - ui.px(18), area.position.y + ui.px(18));
+        spinner(ui, at, empty ? ui.px(11) : ui.px(7), colour);
+        const char* const words = status.state == LaneState::Queued ? "Waiting" : "Building";
+        if (empty)
+            drawText(ui,
+                     {middle.x, middle.y + ui.px(8)},
+                     Align::Center,
+                     words,
+                     {nullptr, color::kSecondary});
+        state.animate();
+        const float line = ui.px(3);
+        const ImVec2 begin{area.position.x, area.end().y - line};
+        ImDrawList& list = *ImGui::GetWindowDrawList();
+        list.AddRectFilled(begin, area.end(), color::kHairline);
+        list.AddRectFilled(
+            begin,
+            {begin.x + area.size.x * static_cast<float>(status.progress), area.end().y},
+            colour);
+    } else if (status.state == LaneState::Failed) {
+        drawText(ui,
+                 {middle.x, middle.y - ui.px(20)},
+                 Align::Center,
+                 "Failed",
+                 {ui.theme.fonts.semibold, color::kError});
+        drawText(ui,
+                 middle,
+                 Align::Center,
+                 fitText(ui, status.failure, area.size.x - ui.px(24)),
+                 {nullptr, color::kSecondary});
+        ImGui::SetCursorScreenPos({middle.x - ui.px(14), middle.y + ui.px(22)});
+        if (linkButton(ui, "Retry", color::kAccent))
+            ui.push(RetryLane{lane.id});
+    }
+    if (draft && status.lod)
+        drawText(ui,
+                 area.position + ImVec2(ui.px(10), ui.px(8)),
+                 Align::Left,
+                 "draft",
+                 {ui.theme.fonts.small, color::kSecondary});
+    if (!status.numbers.note.empty()) {
+        const float y = area.end().y - ui.px(22);
+        drawText(ui,
+                 {area.position.x + ui.px(10), y},
+                 Align::Left,
+                 fitText(ui, status.numbers.note, area.size.x - ui.px(20), ui.theme.fonts.small),
+                 {ui.theme.fonts.small, color::kWarning});
+    }
+}
+
+void laneGestures(const Ui& ui,
+                  const PanelInput& input,
+                  const WindowState& state,
+                  const Area& area) {
+    const bool lights = state.drag_moves_light && ImGui::IsMouseDown(ImGuiMouseButton_Left);
+    if (const auto lit = lights ? lightGesture(input.document.view) : std::nullopt)
+        ui.push(SetView{*lit});
+    else if (const auto camera = cameraGesture(
+                 input.document.camera, std::min(area.size.x, area.size.y), kVerticalFovRad);
+             camera && !lights)
+        ui.push(SetCamera{*camera});
+}
+
+void requestPicture(const PanelInput& input, WindowState& state, LaneId lane, const Area& area) {
+    state.views.push_back({lane,
+                           static_cast<int>(std::lround(area.size.x * input.facts.density)),
+                           static_cast<int>(std::lround(area.size.y * input.facts.density))});
+}
+
+} // namespace lodestone::ui

@@ -1,0 +1,26 @@
+#pragma once
+// The parts of one lane's view, for the grid and the split view. ui.panel names the view.
+#include "ui/panels.h"
+
+namespace lodestone::ui {
+
+// Name, what sets the lane apart, and its menu.
+void drawLaneHeader(
+    const Ui& ui, const PanelInput& input, WindowState& state, const Lane& lane, const Area& area);
+// Triangles and ratio, size, time and rate. What does not fit is shortened, then left out.
+void drawLaneFooter(const Ui& ui, const Lane& lane, const Area& area);
+// Over the picture: what the lane is busy with, or why it shows nothing.
+void drawLaneState(
+    const Ui& ui, WindowState& state, const Lane& lane, bool draft, const Area& area);
+// What the mouse does to camera or light over the last ImGui item, a picture.
+void laneGestures(const Ui& ui,
+                  const PanelInput& input,
+                  const WindowState& state,
+                  const Area& area);
+// Asks for the lane's picture in the size of the area.
+void requestPicture(const PanelInput& input, WindowState& state, LaneId lane, const Area& area);
+
+// Two lanes in one place: left of a divider the one, right of it the other.
+void drawSplitView(const Ui& ui, const PanelInput& input, WindowState& state, const Area& area);
+
+} // namespace lodestone::ui
