@@ -1,6 +1,6 @@
 #include "ui/lane_presets.h"
 
-#include "simplify/algorithm.h"
+#include "app/lane.h"
 
 namespace lodestone::ui {
 
