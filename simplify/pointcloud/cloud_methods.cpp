@@ -23,9 +23,8 @@ void runVertexTriplex(CloudSurface& surface,
                       const CloudSettings& settings,
                       const JobContext& job) {
     for (double left = settings.main; left > 0.0 && !job.stopRequested(); left -= 1.0) {
-        applyMerges(
-            surface, vertexTriplex(surface, std::min(left, 1.0), settings.fidelity, job), complex);
-        flipToDelaunay(surface, job);
+        const Merges merges = vertexTriplex(surface, std::min(left, 1.0), settings.fidelity, job);
+        mergeAndFlip(surface, complex, merges, job);
     }
 }
 

@@ -1,5 +1,6 @@
 #include "simplify/pointcloud/cloud_submesh.h"
 
+#include "simplify/pointcloud/advancing_front.h"
 #include "simplify/pointcloud/cloud_read_out.h"
 
 #include <algorithm>
@@ -77,6 +78,8 @@ CloudPiece simplifyPiece(const CloudSubmesh& from,
     if (job.stopRequested() || (surface.faces.size() == from.surface.faces.size() &&
                                 std::ranges::none_of(surface.changed, is_changed)))
         return originalPiece(from);
+    if (settings.retriangulation == Retriangulation::PointCloud)
+        rebuildFromPoints(surface);
     CloudPiece piece;
     piece.primitives = readOutSurface(surface, *from.submesh, from.complex);
     piece.triangles = static_cast<std::uint32_t>(surface.faces.size());

@@ -71,7 +71,10 @@ Merges vertexTriplexDistance(const CloudSurface& surface,
                 continue;
             const std::size_t a = (side + 1) % 3;
             const std::size_t b = (side + 2) % 3;
-            mergeSide(builder, roots, sides[a] > sides[b] ? a : b);
+            const std::size_t longer = sides[a] > sides[b] ? a : b;
+            // A far longer one would leave slivers across the surface.
+            const bool fits = fidelity == Fidelity::Literal || sides[longer] < 2.0 * distance;
+            mergeSide(builder, roots, fits ? longer : side);
             break;
         }
     }

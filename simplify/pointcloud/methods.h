@@ -33,7 +33,8 @@ Merges sphericalScanning(const CloudSurface& surface,
                          const JobContext& job);
 
 // VTD: in triangle order, three edges all below `distance` become the centre of their circle;
-// beside one edge within it, the longer of the other two becomes its midpoint.
+// beside one edge within it, the longer of the other two becomes its midpoint (Sound: the short one
+// if that is more than twice as long as `distance`).
 Merges vertexTriplexDistance(const CloudSurface& surface,
                              double distance,
                              Fidelity fidelity,

@@ -1,5 +1,6 @@
 #include "simplify/pointcloud/pointcloud.h"
 
+#include "simplify/pointcloud/advancing_front.h"
 #include "simplify/pointcloud/point_cloud_source.h"
 
 #include <algorithm>
@@ -100,6 +101,19 @@ constexpr std::string_view kLiteralSpheres = "Merges that turn faces over, too."
 constexpr std::string_view kLiteralAngles =
     "What may go is decided once, on the surface as it was, not again after every pass.";
 
+ParameterInfo retriangulationParameter() {
+    ParameterInfo info;
+    info.id = "retriangulation";
+    info.label = "Retriangulation";
+    info.tooltip = "surface: the model's own triangles, merged and flipped to Delaunay. points: "
+                   "rebuilt from the points alone, slower.";
+    info.kind = ParameterInfo::Kind::Choice;
+    info.choices = {"surface"};
+    if (canRebuildFromPoints())
+        info.choices.emplace_back("points");
+    return info;
+}
+
 // Usage errors name the parameter.
 Result<void> checkValues(const Algorithm& row, const ParameterValues& values) {
     for (const auto& entry : values) {
@@ -132,6 +146,8 @@ Result<LodSourcePtr> prepare(const ScenePtr& scene,
     CloudSettings& settings = options.settings;
     if (parameterValue(row, values, "literal") > 0.5)
         settings.fidelity = Fidelity::Literal;
+    if (parameterValue(row, values, "retriangulation") > 0.5)
+        settings.retriangulation = Retriangulation::PointCloud;
     settings.angle_deg = parameterValue(row, values, "angle");
     settings.passes = static_cast<std::uint32_t>(parameterValue(row, values, "passes"));
     settings.area_share = 0.01 * parameterValue(row, values, "area");
@@ -155,7 +171,8 @@ Algorithm vertexTriplexAlgorithm() {
     Algorithm row = oneShot("vt", "Vertex triplex (VT)", "VT");
     row.summary = "Merges the vertices of one triangle after the other into the centre of its "
                   "circle.";
-    row.parameters = {coverageParameter(), literalParameter(kLiteralCircles)};
+    row.parameters = {
+        coverageParameter(), literalParameter(kLiteralCircles), retriangulationParameter()};
     row.prepare = prepare<vertexTriplexAlgorithm, kVertexTriplexMethod>;
     return row;
 }
@@ -163,8 +180,11 @@ Algorithm vertexTriplexAlgorithm() {
 Algorithm faceAngleAlgorithm() {
     Algorithm row = oneShot("fad", "Face angle dependency (FAD)", "FAD");
     row.summary = "Removes vertices whose faces lie nearly in one plane and closes the holes.";
-    row.parameters = {
-        angleParameter(), passesParameter(8.0), areaParameter(), literalParameter(kLiteralAngles)};
+    row.parameters = {angleParameter(),
+                      passesParameter(8.0),
+                      areaParameter(),
+                      literalParameter(kLiteralAngles),
+                      retriangulationParameter()};
     row.prepare = prepare<faceAngleAlgorithm, kFaceAngleMethod>;
     return row;
 }
@@ -172,7 +192,8 @@ Algorithm faceAngleAlgorithm() {
 Algorithm intervertexDistanceAlgorithm() {
     Algorithm row = oneShot("ivdd", "Intervertex distance dependence (IVDD)", "IVDD");
     row.summary = "Merges the vertices of a triangle that are near to each other.";
-    row.parameters = {distanceParameter(), literalParameter(kLiteralCircles)};
+    row.parameters = {
+        distanceParameter(), literalParameter(kLiteralCircles), retriangulationParameter()};
     row.prepare = prepare<intervertexDistanceAlgorithm, kIntervertexDistanceMethod>;
     return row;
 }
@@ -180,7 +201,8 @@ Algorithm intervertexDistanceAlgorithm() {
 Algorithm sphericalScanningAlgorithm() {
     Algorithm row = oneShot("ss", "Spherical scanning (SS)", "SS");
     row.summary = "Moves a sphere over the vertices; all inside become one.";
-    row.parameters = {radiusParameter(), literalParameter(kLiteralSpheres)};
+    row.parameters = {
+        radiusParameter(), literalParameter(kLiteralSpheres), retriangulationParameter()};
     row.prepare = prepare<sphericalScanningAlgorithm, kSphericalScanningMethod>;
     return row;
 }
@@ -189,7 +211,8 @@ Algorithm vertexTriplexDistanceAlgorithm() {
     Algorithm row = oneShot("vtd", "Vertex triplex distance (VTD)", "VTD");
     row.summary = "Small triangles become the centre of their circle; beside a short edge the "
                   "longer one becomes its midpoint.";
-    row.parameters = {distanceParameter(), literalParameter(kLiteralCircles)};
+    row.parameters = {
+        distanceParameter(), literalParameter(kLiteralCircles), retriangulationParameter()};
     row.prepare = prepare<vertexTriplexDistanceAlgorithm, kVertexTriplexDistanceMethod>;
     return row;
 }
@@ -201,7 +224,8 @@ Algorithm faceAngleScanningAlgorithm() {
                       firstAngleParameter(),
                       passesParameter(1.0),
                       areaParameter(),
-                      literalParameter(kLiteralSpheres)};
+                      literalParameter(kLiteralSpheres),
+                      retriangulationParameter()};
     row.prepare = prepare<faceAngleScanningAlgorithm, kFaceAngleScanningMethod>;
     return row;
 }
