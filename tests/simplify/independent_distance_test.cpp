@@ -147,9 +147,3 @@ TEST_F(IndependentDistance, AgreesOnAnInstancedScene) {
     ASSERT_TRUE(chair);
     expectEqualMeasures(simplified(*chair, "ias", 0.2), "chair at 20 %");
 }
-
-TEST_F(IndependentDistance, AgreesOnAVillageOfInstances) {
-    const Result<ScenePtr> village = generateScene("village");
-    ASSERT_TRUE(village);
-    expectEqualMeasures(simplified(*village, "ias", 0.2), "village at 20 %");
-}
