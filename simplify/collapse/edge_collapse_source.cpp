@@ -179,6 +179,7 @@ std::vector<SequenceRequest> requestsFor(SequenceSet& set, const EdgeCollapseOpt
         requests[s].submesh = &scene.submeshes[s];
         requests[s].instance_count = set.ranges[s].size();
         std::vector<glm::dmat3> linear_parts;
+        linear_parts.reserve(set.ranges[s].size());
         for (std::uint32_t i = set.ranges[s].begin; i < set.ranges[s].end; ++i)
             linear_parts.emplace_back(scene.instances[i].transform);
         InstanceWeights weights(linear_parts);
@@ -187,6 +188,16 @@ std::vector<SequenceRequest> requestsFor(SequenceSet& set, const EdgeCollapseOpt
             requests[s].weights = std::move(weights);
     });
     return requests;
+}
+
+void planRemovals(SequenceSet& set, const Bounds& bounds, const JobContext& job) {
+    constexpr double kCoverTolerance = 2e-4; // of the diagonal
+    const std::vector<Cover> covers =
+        findCovers(*set.scene, set.ranges, set.sequences, kCoverTolerance * set.diagonal);
+    tbb::parallel_for(std::size_t{0}, covers.size(), [&](std::size_t s) {
+        if (set.ranges[s].size() > 1 && !job.stopRequested())
+            set.removals[s] = planRemoval(*set.scene, set.ranges[s], bounds, covers[s]);
+    });
 }
 
 } // namespace
@@ -209,11 +220,7 @@ Result<LodSourcePtr> prepareEdgeCollapse(ScenePtr scene,
     set->sequences = std::move(*sequences);
     set->removals.resize(requests.size());
     if (options.remove_instances)
-        tbb::parallel_for(std::size_t{0}, requests.size(), [&](std::size_t s) {
-            if (set->ranges[s].size() > 1 && !job.stopRequested())
-                set->removals[s] =
-                    planRemoval(*set->scene, static_cast<std::uint32_t>(s), set->ranges[s], bounds);
-        });
+        planRemovals(*set, bounds, job);
     if (job.stopRequested())
         return cancelled();
     const double sequence_seconds = secondsSince(start);

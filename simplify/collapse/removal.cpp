@@ -1,5 +1,8 @@
 #include "simplify/collapse/removal.h"
 
+#include "simplify/collapse/radix_sort.h"
+#include "simplify/collapse/removal_grid.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -55,79 +58,108 @@ SubmeshFacts factsOf(const Submesh& submesh) {
 double instanceArea(const SubmeshFacts& facts, const glm::dmat3& m) {
     const glm::dmat3 cofactor(
         glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
-    const glm::dmat3 gram = glm::transpose(cofactor) * cofactor;
-    const glm::dmat3 product = gram * facts.normal_moment;
-    return facts.area * std::sqrt(std::max(0.0, product[0][0] + product[1][1] + product[2][2]));
-}
-
-std::uint64_t spread(std::uint64_t v) { // 21 bits to every third bit
-    v &= 0x1FFFFF;
-    v = (v | v << 32) & 0x1F00000000FFFF;
-    v = (v | v << 16) & 0x1F0000FF0000FF;
-    v = (v | v << 8) & 0x100F00F00F00F00F;
-    v = (v | v << 4) & 0x10C30C30C30C30C3;
-    return (v | v << 2) & 0x1249249249249249;
-}
-
-std::uint64_t mortonOf(const glm::dvec3& p, const Bounds& bounds) {
-    std::uint64_t code = 0;
-    const double size = std::max({bounds.size().x, bounds.size().y, bounds.size().z, 1e-300});
-    for (int axis = 0; axis < 3; ++axis) {
-        const double unit = std::clamp((p[axis] - bounds.min[axis]) / size, 0.0, 1.0);
-        code |= spread(static_cast<std::uint64_t>(unit * 0x1FFFFF)) << axis;
+    double squared = 0.0; // trace(C^T C N), N the symmetric normal moment
+    for (int c = 0; c < 3; ++c) {
+        squared += glm::dot(cofactor[c], cofactor[c]) * facts.normal_moment[c][c];
+        const int d = (c + 1) % 3;
+        squared += 2.0 * glm::dot(cofactor[c], cofactor[d]) * facts.normal_moment[c][d];
     }
-    return code;
+    return facts.area * std::sqrt(std::max(0.0, squared));
+}
+
+std::uint32_t spread(std::uint32_t v) { // 10 bits to every third bit
+    v &= 0x3FF;
+    v = (v | v << 16) & 0x30000FF;
+    v = (v | v << 8) & 0x300F00F;
+    v = (v | v << 4) & 0x30C30C3;
+    return (v | v << 2) & 0x9249249;
 }
 
 struct Member {
     std::uint32_t instance = 0;
     glm::dvec3 at{0.0}; // pivot in the world
-    double reach = 0.0; // farthest a corner of its box is from `at`
     double room = 0.0;  // growth up to which its box surely stays inside the model's
     double area = 0.0;
-    std::uint64_t code = 0;
 };
 
-std::vector<Member> membersOf(const Scene& scene,
-                              InstanceRange range,
-                              const SubmeshFacts& facts,
-                              const Bounds& scene_bounds) {
+// How far a transformed box reaches from the pivot before it leaves the model's bounds, x its size.
+double roomOf(const glm::dmat3& m,
+              const Bounds& about_pivot,
+              const glm::dvec3& to_low,
+              const glm::dvec3& to_high) {
+    glm::dvec3 low(0.0);
+    glm::dvec3 high(0.0);
+    for (int c = 0; c < 3; ++c) {
+        const glm::dvec3 a = m[c] * about_pivot.min[c];
+        const glm::dvec3 b = m[c] * about_pivot.max[c];
+        low += glm::min(a, b);
+        high += glm::max(a, b);
+    }
+    double room = std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < 3; ++axis) {
+        if (low[axis] < 0.0)
+            room = std::min(room, to_low[axis] / -low[axis]);
+        if (high[axis] > 0.0)
+            room = std::min(room, to_high[axis] / high[axis]);
+    }
+    return room;
+}
+
+struct Crowd {
+    std::vector<Member> members; // along a Morton curve over their own bounds
+    Bounds spots;                // of their pivots
+};
+
+Crowd crowdOf(const Scene& scene,
+              InstanceRange range,
+              const SubmeshFacts& facts,
+              const Bounds& scene_bounds) {
     std::vector<Member> members(range.size());
     Bounds spots;
+    Bounds about_pivot;
+    about_pivot.min = facts.bounds.min - facts.pivot;
+    about_pivot.max = facts.bounds.max - facts.pivot;
     for (std::uint32_t i = 0; i < range.size(); ++i) {
         Member& member = members[i];
         member.instance = range.begin + i;
         const glm::dmat4& transform = scene.instances[member.instance].transform;
-        member.at = glm::dvec3(transform * glm::dvec4(facts.pivot, 1.0));
-        member.area = instanceArea(facts, glm::dmat3(transform));
-        member.room = std::numeric_limits<double>::infinity();
-        for (int corner = 0; corner < 8; ++corner) {
-            const glm::dvec3 local((corner & 1) ? facts.bounds.max.x : facts.bounds.min.x,
-                                   (corner & 2) ? facts.bounds.max.y : facts.bounds.min.y,
-                                   (corner & 4) ? facts.bounds.max.z : facts.bounds.min.z);
-            const glm::dvec3 arm = glm::dvec3(transform * glm::dvec4(local, 1.0)) - member.at;
-            for (int axis = 0; axis < 3; ++axis) {
-                const double wall = arm[axis] > 0.0 ? scene_bounds.max[axis] - member.at[axis]
-                                                    : member.at[axis] - scene_bounds.min[axis];
-                if (std::abs(arm[axis]) > 0.0)
-                    member.room = std::min(member.room, wall / std::abs(arm[axis]));
-            }
-        }
+        const glm::dmat3 linear(transform);
+        member.at = linear * facts.pivot + glm::dvec3(transform[3]);
+        member.area = instanceArea(facts, linear);
+        member.room =
+            roomOf(linear, about_pivot, member.at - scene_bounds.min, scene_bounds.max - member.at);
         spots.add(member.at);
     }
-    for (Member& member : members)
-        member.code = mortonOf(member.at, spots);
-    std::ranges::sort(members, [](const Member& a, const Member& b) {
-        return a.code != b.code ? a.code < b.code : a.instance < b.instance;
-    });
-    return members;
+    const double size = std::max({spots.size().x, spots.size().y, spots.size().z, 1e-300});
+    std::vector<std::uint64_t> codes(members.size()); // ties: the file's order
+    for (std::uint32_t i = 0; i < members.size(); ++i) {
+        const glm::uvec3 cell((members[i].at - spots.min) * (1023.999 / size));
+        const std::uint32_t code = spread(cell.x) | spread(cell.y) << 1 | spread(cell.z) << 2;
+        codes[i] = std::uint64_t{code} << 32 | i;
+    }
+    sortByUpperHalf(codes);
+    Crowd crowd{{}, spots};
+    crowd.members.reserve(members.size());
+    for (const std::uint64_t code : codes)
+        crowd.members.push_back(members[code & 0xFFFFFFFFu]);
+    return crowd;
 }
 
-std::size_t reversedBits(std::size_t value, int bits) {
-    std::size_t reversed = 0;
-    for (int b = 0; b < bits; ++b)
-        reversed |= (value >> b & 1) << (bits - 1 - b);
-    return reversed;
+// The lowest bits in reverse order.
+std::size_t reversedBits(std::uint32_t value, int bits) {
+    value = (value >> 1 & 0x55555555u) | (value & 0x55555555u) << 1;
+    value = (value >> 2 & 0x33333333u) | (value & 0x33333333u) << 2;
+    value = (value >> 4 & 0x0F0F0F0Fu) | (value & 0x0F0F0F0Fu) << 4;
+    return bits == 0 ? 0 : std::size_t{__builtin_bswap32(value)} >> (32 - bits);
+}
+
+// Mean size of the instances: their submesh's radius about the pivot, world units.
+double meanRadius(const SubmeshFacts& facts, const std::vector<Member>& members) {
+    double area = 0.0;
+    for (const Member& member : members)
+        area += member.area;
+    const double scale2 = area / (facts.area * static_cast<double>(members.size()));
+    return 0.5 * facts.bounds.diagonal() * std::sqrt(scale2);
 }
 
 // Indices into members, the first to go first. Rounds halve the survivors: neighbours along the
@@ -145,7 +177,7 @@ std::vector<std::uint32_t> removalOrder(const std::vector<Member>& members) {
         std::vector<std::uint32_t> survivors(alive.begin() + static_cast<std::ptrdiff_t>(2 * pairs),
                                              alive.end());
         std::vector<std::uint32_t> stay(pairs);
-        for (std::size_t slot = 0; slot < std::size_t{1} << bits; ++slot) {
+        for (std::uint32_t slot = 0; slot < 1u << bits; ++slot) {
             const std::size_t pair = reversedBits(slot, bits);
             if (pair >= pairs)
                 continue;
@@ -165,146 +197,84 @@ std::vector<std::uint32_t> removalOrder(const std::vector<Member>& members) {
     return order;
 }
 
-// Distance of each newcomer to the nearest point already there: a dense grid over known bounds that
-// is rebuilt finer whenever the number of points has doubled, so that a cell holds about one.
-class GrowingGrid {
-public:
-    explicit GrowingGrid(const Bounds& bounds) : bounds_(bounds) { rebuild(); }
-
-    double nearest(const glm::dvec3& p) const {
-        const glm::ivec3 center = cellOf(p);
-        double best2 = std::numeric_limits<double>::infinity();
-        const int rings = std::max({size_.x, size_.y, size_.z});
-        for (int ring = 0; ring < rings; ++ring) {
-            const double safe = static_cast<double>(ring - 1) * cell_; // all nearer cells are done
-            if (ring > 0 && best2 <= safe * safe)
-                break;
-            forShell(center, ring, [&](std::uint32_t id) {
-                const glm::dvec3 apart = points_[id] - p;
-                best2 = std::min(best2, glm::dot(apart, apart));
-            });
-        }
-        return std::sqrt(best2);
-    }
-
-    void add(const glm::dvec3& p) {
-        points_.push_back(p);
-        next_.push_back(kNone);
-        if (points_.size() >= 2 * built_for_)
-            rebuild();
-        else
-            insert(static_cast<std::uint32_t>(points_.size() - 1));
-    }
-
-private:
-    glm::ivec3 cellOf(const glm::dvec3& p) const {
-        const glm::ivec3 cell(glm::floor((p - bounds_.min) / cell_));
-        return glm::clamp(cell, glm::ivec3(0), size_ - 1);
-    }
-
-    std::size_t indexOf(int x, int y, int z) const {
-        return (static_cast<std::size_t>(z) * static_cast<std::size_t>(size_.y) +
-                static_cast<std::size_t>(y)) *
-                   static_cast<std::size_t>(size_.x) +
-               static_cast<std::size_t>(x);
-    }
-
-    // Cells exactly `ring` away along the farthest axis.
-    template <class Visit>
-    void forShell(const glm::ivec3& center, int ring, Visit visit) const {
-        const glm::ivec3 low = glm::max(center - ring, glm::ivec3(0));
-        const glm::ivec3 high = glm::min(center + ring, size_ - 1);
-        for (int z = low.z; z <= high.z; ++z)
-            for (int y = low.y; y <= high.y; ++y) {
-                const bool face = std::abs(z - center.z) == ring || std::abs(y - center.y) == ring;
-                const int step = face || ring == 0 ? 1 : 2 * ring; // else only both ends
-                for (int x = face ? low.x : center.x - ring; x <= high.x; x += step)
-                    if (x >= 0)
-                        for (std::uint32_t id = heads_[indexOf(x, y, z)]; id != kNone;
-                             id = next_[id])
-                            visit(id);
-            }
-    }
-
-    void insert(std::uint32_t id) {
-        const glm::ivec3 cell = cellOf(points_[id]);
-        std::uint32_t& head = heads_[indexOf(cell.x, cell.y, cell.z)];
-        next_[id] = head;
-        head = id;
-    }
-
-    void rebuild() {
-        built_for_ = std::max<std::size_t>(points_.size(), 8);
-        const double longest =
-            std::max({bounds_.size().x, bounds_.size().y, bounds_.size().z, 1e-300});
-        // Flat and long clouds use their cells as well as round ones.
-        cell_ = longest / static_cast<double>(built_for_);
-        const auto along = [&](double length) { return std::floor(length / cell_) + 1.0; };
-        const auto cells = [&] {
-            return along(bounds_.size().x) * along(bounds_.size().y) * along(bounds_.size().z);
-        };
-        while (cells() > static_cast<double>(built_for_))
-            cell_ *= 1.25;
-        size_ =
-            glm::ivec3(along(bounds_.size().x), along(bounds_.size().y), along(bounds_.size().z));
-        heads_.assign(static_cast<std::size_t>(cells()), kNone);
-        for (std::uint32_t id = 0; id < points_.size(); ++id)
-            insert(id);
-    }
-
-    Bounds bounds_;
-    double cell_ = 1.0;
-    glm::ivec3 size_{1};
-    std::size_t built_for_ = 8;
-    std::vector<glm::dvec3> points_;
-    std::vector<std::uint32_t> heads_; // [cells] first point
-    std::vector<std::uint32_t> next_;  // [points] in the same cell
-};
-
 } // namespace
 
 double growthAt(const RemovalSequence& removal, std::uint32_t kept) {
-    const double all = removal.area_left.back();
-    const double left = removal.area_left[kept];
-    if (!(left > 0.0) || kept + 1 >= removal.area_left.size())
-        return 1.0;
-    return std::min(kMaxGrowth, std::sqrt(all / left));
+    const std::size_t gone = removal.area_left.size() - 1 - kept;
+    return gone == 0 || kept == 0 ? 1.0 : static_cast<double>(removal.growth[gone - 1]);
 }
 
+namespace {
+
+// Of the first half to go.
+double meanOfFirstHalf(std::span<const double> distances) {
+    const std::size_t begin = (distances.size() + 1) / 2;
+    double sum = 0.0;
+    for (std::size_t i = begin; i < distances.size(); ++i)
+        sum += distances[i];
+    return sum / static_cast<double>(distances.size() - begin);
+}
+
+// Costs, errors and growth from the first removal to the last. A cover makes all removals cheaper
+// alike: the first costs what the cover hides, the last ones of a kind stay dear. Of a few of a
+// kind each counts, whatever hides it.
+void weighRemovals(RemovalSequence& removal,
+                   std::span<const double> areas,     // [instances] the longest-lived first
+                   std::span<const double> distances, // [instances] to the nearest that outlives
+                   const Cover& cover,
+                   double radius) {
+    const double apart = meanOfFirstHalf(distances);
+    const double one_of = 1.0 / std::sqrt(static_cast<double>(areas.size()));
+    const double hidden =
+        apart > cover.cost_distance ? std::max(cover.cost_distance / apart, one_of) : 1.0;
+    const double bounded = std::min(kMaxGrowth, 1.0 + cover.distance / radius);
+    const double all = removal.area_left.back();
+    double cost = 0.0;
+    double to_sisters = 0.0;
+    double growth = 1.0;
+    for (std::size_t i = areas.size(); i-- > 1;) {
+        to_sisters = std::max(to_sisters, distances[i]);
+        const double distance = hidden * to_sisters;
+        cost = std::max(cost, areas[i] * distance * distance);
+        const double limit = to_sisters <= cover.distance ? kMaxGrowth : bounded;
+        const double left = removal.area_left[i];
+        growth = std::max(growth, left > 0.0 ? std::min(limit, std::sqrt(all / left)) : 1.0);
+        removal.cost.push_back(cost);
+        removal.error.push_back(static_cast<float>(std::min(to_sisters, cover.distance)));
+        removal.growth.push_back(static_cast<float>(growth));
+    }
+}
+
+} // namespace
+
 RemovalSequence planRemoval(const Scene& scene,
-                            std::uint32_t submesh,
                             InstanceRange range,
-                            const Bounds& scene_bounds) {
-    if (triangleCount(scene.submeshes[submesh]) == 0) // points and lines gain nothing by going
+                            const Bounds& scene_bounds,
+                            const Cover& cover) {
+    const Submesh& submesh = scene.submeshes[scene.instances[range.begin].submesh];
+    if (triangleCount(submesh) == 0) // points and lines gain nothing by going
         return {};
-    const SubmeshFacts facts = factsOf(scene.submeshes[submesh]);
-    const std::vector<Member> members = membersOf(scene, range, facts, scene_bounds);
+    const SubmeshFacts facts = factsOf(submesh);
+    const auto [members, spots] = crowdOf(scene, range, facts, scene_bounds);
     std::vector<std::uint32_t> order = removalOrder(members);
     std::ranges::reverse(order); // the longest-lived first
     RemovalSequence removal;
     removal.pivot = facts.pivot;
+    removal.area_left.reserve(order.size() + 1);
     removal.area_left.push_back(0.0);
     auto instances = std::make_shared<std::vector<std::uint32_t>>();
-    std::vector<double> distance;
-    Bounds spots;
-    for (const Member& member : members)
-        spots.add(member.at);
+    instances->reserve(order.size());
+    std::vector<double> areas;
+    std::vector<double> distances;
     GrowingGrid grid(spots);
     for (const std::uint32_t index : order) {
         const Member& member = members[index];
         instances->push_back(member.instance);
         removal.area_left.push_back(removal.area_left.back() + member.area);
-        distance.push_back(grid.nearest(member.at));
-        grid.add(member.at);
+        areas.push_back(member.area);
+        distances.push_back(grid.addAndMeasure(member.at));
     }
-    double running = 0.0;
-    double running_distance = 0.0;
-    for (std::size_t i = order.size(); i-- > 1;) { // from the first to go
-        running_distance = std::max(running_distance, distance[i]);
-        running = std::max(running, members[order[i]].area * running_distance * running_distance);
-        removal.cost.push_back(running);
-        removal.error.push_back(static_cast<float>(running_distance));
-    }
+    weighRemovals(removal, areas, distances, cover, meanRadius(facts, members));
     removal.order = std::move(instances);
     return removal;
 }

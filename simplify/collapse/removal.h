@@ -1,7 +1,7 @@
 #pragma once
 // Removing instances of a submesh that can be collapsed no further (stochastic simplification:
 // Cook, Halstead, Planck, Ryu 2007), nested and stratified.
-#include "scene/scene.h"
+#include "simplify/collapse/removal_cover.h"
 
 namespace lodestone {
 
@@ -9,11 +9,14 @@ struct RemovalSequence {
     // All instances of the submesh, the longest-lived first: n kept instances are the first n.
     std::shared_ptr<const std::vector<std::uint32_t>> order; // indices into Scene::instances
     // cost[i]: of removing the (i + 1)-th instance to go, world length^4: its area times the
-    // squared distance to the nearest instance that outlives it, as a running maximum.
+    // squared distance to the nearest of its sisters that outlives it, as a running maximum. With a
+    // cover that is nearer than the sisters, that distance x (cover / sisters' mean at the start),
+    // no less than / sqrt(instances).
     std::vector<double> cost; // [instances - 1]
     std::vector<float> error; // [instances - 1] that distance, world units
     // area_left[k]: world area of the first k of order, so that survivors can be grown to keep it.
     std::vector<double> area_left; // [instances + 1]
+    std::vector<float> growth;     // [instances - 1] of the survivors' size after each removal
     glm::dvec3 pivot{0.0};         // of the growing, in the submesh's space
 
     bool possible() const { return !cost.empty(); }
@@ -23,13 +26,15 @@ struct RemovalSequence {
 constexpr double kMaxGrowth = 4.0;
 
 // Growth of the survivors' size when `kept` of all instances are left: sqrt(area of all / kept).
+// Where a cover is nearer than the sisters it is bounded by 1 + cover / radius: a window must not
+// outgrow its wall to make up for others.
 double growthAt(const RemovalSequence& removal, std::uint32_t kept);
 
 // Plans the removals of a submesh's instances. scene_bounds: those of the original model; instances
 // that would leave it when grown go first within their stratum. O(n log n), any thread.
 RemovalSequence planRemoval(const Scene& scene,
-                            std::uint32_t submesh,
                             InstanceRange range,
-                            const Bounds& scene_bounds);
+                            const Bounds& scene_bounds,
+                            const Cover& cover);
 
 } // namespace lodestone

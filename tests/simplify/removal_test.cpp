@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 #include <numeric>
@@ -30,7 +31,7 @@ ScenePtr scattered(int count) {
 }
 
 RemovalSequence planned(const ScenePtr& scene) {
-    return planRemoval(*scene, 0, instanceRanges(*scene)[0], worldBounds(*scene));
+    return planRemoval(*scene, instanceRanges(*scene)[0], worldBounds(*scene), {});
 }
 
 // Variance over mean of how many of these instances lie in each of 25 cells, relative to all
@@ -118,7 +119,8 @@ TEST(Removal, SurvivorsKeepTheAreaUntilTheyAreFourTimesAsLarge) {
         const double growth = growthAt(removal, kept);
         EXPECT_LE(growth, kMaxGrowth);
         if (growth < kMaxGrowth) {
-            EXPECT_NEAR(removal.area_left[kept] * growth * growth, removal.area_left[400], 1e-9)
+            EXPECT_NEAR(
+                removal.area_left[kept] * growth * growth / removal.area_left[400], 1.0, 1e-6)
                 << kept << " kept";
         } else {
             EXPECT_LE(kept, 400u / 16 + 1);
@@ -159,13 +161,13 @@ TEST(Removal, OfPairsTheOneThatWouldLeaveTheModelGoesFirst) {
     Bounds bounds = worldBounds(*scene);
     bounds.max += glm::dvec3(5.0);
     bounds.min -= glm::dvec3(0.0, 5.0, 5.0); // the wall is at x = 0
-    const RemovalSequence removal = planRemoval(*scene, 0, instanceRanges(*scene)[0], bounds);
+    const RemovalSequence removal = planRemoval(*scene, instanceRanges(*scene)[0], bounds, {});
     // Growing about their origin at x = 0 keeps all inside; about a centroid it does not.
     auto centred = std::make_shared<Geometry>(*meshes::moved(meshes::grid(2), {20.0, 0.0, 0.0}));
     for (glm::dmat4& transform : transforms)
         transform[3].x -= 20.0;
     const ScenePtr off = meshes::sceneOf({submeshOf({centred})}, {transforms});
-    const RemovalSequence by_centroid = planRemoval(*off, 0, instanceRanges(*off)[0], bounds);
+    const RemovalSequence by_centroid = planRemoval(*off, instanceRanges(*off)[0], bounds, {});
     EXPECT_NEAR(by_centroid.pivot.x, 20.5, 1e-6);
     EXPECT_EQ(removal.pivot, glm::dvec3(0.0));
     for (std::size_t k = 0; k < 8; ++k)
@@ -184,6 +186,68 @@ TEST(Removal, OfInstancesAtOnePlaceCostsNothing) {
         planned(meshes::sceneOf({submeshOf({meshes::grid(2)})}, {transforms}));
     EXPECT_EQ(removal.cost, std::vector<double>(9, 0.0));
     EXPECT_EQ(growthAt(removal, 10), 1.0);
+}
+
+// Blades on a lawn, and the same blades in the air.
+ScenePtr bladesOver(double height) {
+    std::vector<glm::dmat4> blades;
+    for (int x = 0; x < 20; ++x)
+        for (int y = 0; y < 20; ++y)
+            blades.push_back(glm::translate(glm::dmat4(1.0), {0.5 * x, 0.5 * y, height}) *
+                             glm::scale(glm::dmat4(1.0), glm::dvec3(0.1)));
+    return meshes::sceneOf({submeshOf({meshes::grid(2)}), submeshOf({meshes::grid(8)})},
+                           {blades, {glm::scale(glm::dmat4(1.0), glm::dvec3(10.0))}});
+}
+
+std::vector<Cover> coversOf(const ScenePtr& scene) {
+    std::vector<CollapseSequence> sequences;
+    for (const Submesh& submesh : scene->submeshes)
+        sequences.push_back(meshes::sequenceOf(submesh));
+    return findCovers(*scene, instanceRanges(*scene), sequences, 1e-6);
+}
+
+TEST(Removal, WhatLiesOnALargerSurfaceIsCoveredByIt) {
+    const std::vector<Cover> low = coversOf(bladesOver(0.01));
+    EXPECT_NEAR(low[0].distance, 0.01, 1e-6);
+    EXPECT_NEAR(low[0].cost_distance, 0.01, 1e-6); // of the same colour
+    EXPECT_TRUE(std::isinf(low[1].distance)) << "nothing is larger than the lawn";
+    EXPECT_TRUE(std::isinf(coversOf(bladesOver(1.0))[0].distance)) << "too far up";
+}
+
+TEST(Removal, AnotherColourIsMissedMore) {
+    const ScenePtr scene = bladesOver(0.01);
+    auto painted = std::make_shared<Scene>(*scene);
+    painted->materials.resize(2);
+    painted->materials[0].base_color = glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
+    painted->materials[1].base_color = glm::vec4(0.25f, 0.25f, 0.25f, 1.0f);
+    painted->submeshes[0].primitives[0].material = 0;
+    painted->submeshes[1].primitives[0].material = 1;
+    const std::vector<Cover> covers = coversOf(painted);
+    EXPECT_NEAR(covers[0].distance, 0.01, 1e-6);
+    EXPECT_NEAR(covers[0].cost_distance, std::hypot(0.01, 0.25 * 0.1 * std::sqrt(0.5)), 1e-6);
+}
+
+TEST(Removal, ACoverMakesItCheaperAndKeepsSurvivorsFromOutgrowingIt) {
+    const ScenePtr scene = bladesOver(0.01);
+    const InstanceRange range = instanceRanges(*scene)[0];
+    const Bounds bounds = worldBounds(*scene);
+    const RemovalSequence bare = planRemoval(*scene, range, bounds, {});
+    const RemovalSequence covered = planRemoval(*scene, range, bounds, coversOf(scene)[0]);
+    EXPECT_EQ(*bare.order, *covered.order);
+    EXPECT_LT(covered.cost.front(), 0.01 * bare.cost.front());
+    EXPECT_GT(covered.cost.back(), 10.0 * covered.cost.front()) << "the last ones stay dear";
+    EXPECT_GT(growthAt(bare, 100), 1.9);
+    EXPECT_LT(growthAt(covered, 100), 1.2);
+    EXPECT_TRUE(std::ranges::is_sorted(covered.cost));
+    EXPECT_TRUE(std::ranges::is_sorted(covered.growth));
+}
+
+TEST(Removal, OfAFewOfAKindEachCounts) {
+    const RemovalSequence few =
+        planRemoval(*scattered(4), instanceRanges(*scattered(4))[0], {}, {1e-6, 1e-6});
+    const RemovalSequence bare =
+        planRemoval(*scattered(4), instanceRanges(*scattered(4))[0], {}, {});
+    EXPECT_NEAR(few.cost.front(), 0.25 * bare.cost.front(), 1e-9);
 }
 
 TEST(Removal, MorphTargetsGrowWithTheirVertices) {

@@ -1,0 +1,246 @@
+#include "simplify/collapse/removal_cover.h"
+
+#include "simplify/collapse/triangle_grid.h"
+#include "simplify/measure/surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tbb/parallel_for.h>
+
+namespace lodestone {
+
+namespace {
+
+constexpr double kLarger = 4.0;                // x the area, to count as a cover
+constexpr std::size_t kMaxTriangles = 100'000; // of all covers
+constexpr std::size_t kSamples = 4;            // points of a submesh
+constexpr double kCovered = 0.5;               // x the radius, at most
+constexpr std::uint32_t kInstances = 6;        // of a submesh that are looked at
+
+struct Sampled {
+    std::array<glm::dvec3, kSamples> points{};
+    glm::dvec3 color{1.0}; // about as bright as it looks
+    double radius = 0.0;   // half its box' diagonal
+    double area = 0.0;
+    double mean_area = 0.0; // of its instances, world
+};
+
+double scaleOf(const glm::dmat4& m) {
+    return std::sqrt((glm::dot(glm::dvec3(m[0]), glm::dvec3(m[0])) +
+                      glm::dot(glm::dvec3(m[1]), glm::dvec3(m[1])) +
+                      glm::dot(glm::dvec3(m[2]), glm::dvec3(m[2]))) /
+                     3.0);
+}
+
+// Calls visit(area, middle) for every triangle.
+template <class Visit>
+void forTriangles(const Primitive& primitive, Visit visit) {
+    if (primitive.mode != PrimitiveMode::Triangles)
+        return;
+    const Geometry& geometry = *primitive.geometry;
+    for (std::size_t i = 0; i + 2 < geometry.indices.size(); i += 3) {
+        const glm::dvec3 a(geometry.positions[geometry.indices[i]]);
+        const glm::dvec3 b(geometry.positions[geometry.indices[i + 1]]);
+        const glm::dvec3 c(geometry.positions[geometry.indices[i + 2]]);
+        visit(0.5 * glm::length(glm::cross(b - a, c - a)), (a + b + c) / 3.0);
+    }
+}
+
+glm::dvec3 colorOf(const Scene& scene, const Primitive& primitive) {
+    if (primitive.material >= scene.materials.size())
+        return glm::dvec3(1.0);
+    const glm::vec4 linear = scene.materials[primitive.material].base_color;
+    return glm::sqrt(glm::clamp(glm::dvec3(linear), glm::dvec3(0.0), glm::dvec3(1.0)));
+}
+
+Sampled sample(const Scene& scene, std::size_t s, InstanceRange range) {
+    const Submesh& submesh = scene.submeshes[s];
+    Sampled sampled;
+    glm::dvec3 color(0.0);
+    for (const Primitive& primitive : submesh.primitives) {
+        const double before = sampled.area;
+        forTriangles(primitive, [&](double area, const glm::dvec3&) { sampled.area += area; });
+        color += colorOf(scene, primitive) * (sampled.area - before);
+    }
+    if (!(sampled.area > 0.0))
+        return sampled;
+    sampled.color = color / sampled.area;
+    sampled.radius = 0.5 * localBounds(submesh).diagonal();
+    double passed = 0.0;
+    std::size_t next = 0; // points lie evenly along the triangles' area
+    for (const Primitive& primitive : submesh.primitives)
+        forTriangles(primitive, [&](double area, const glm::dvec3& middle) {
+            passed += area;
+            const auto until = [&] { return (static_cast<double>(next) + 0.5) / kSamples; };
+            while (next < kSamples && passed >= until() * sampled.area)
+                sampled.points[next++] = middle;
+        });
+    for (; next < kSamples; ++next) // rounding
+        sampled.points[next] = sampled.points[0];
+    double scale2 = 0.0;
+    for (std::uint32_t i = range.begin; i < range.end; ++i) {
+        const double scale = scaleOf(scene.instances[i].transform);
+        scale2 += scale * scale;
+    }
+    if (range.size() > 0)
+        sampled.mean_area = sampled.area * scale2 / range.size();
+    return sampled;
+}
+
+// The coarsest step whose estimated distance is within the limit, in the submesh's units.
+std::uint32_t stepWithin(const CollapseSequence& sequence, double limit) {
+    const auto begin = sequence.error.begin();
+    const auto end = begin + sequence.step_count;
+    const auto beyond =
+        std::find_if(begin, end, [&](float error) { return static_cast<double>(error) > limit; });
+    return static_cast<std::uint32_t>(beyond - begin);
+}
+
+using Corners = std::array<glm::dvec3, 3>;
+
+std::vector<Corners>
+trianglesAt(const CollapseSequence& sequence, const Submesh& submesh, std::uint32_t step) {
+    std::vector<std::uint32_t> stands_for(sequence.complex.wedge_source.size());
+    resolveWedges(sequence, step, stands_for);
+    std::vector<Corners> triangles;
+    for (std::size_t f = 0; f < sequence.complex.faces.size(); ++f) {
+        if (sequence.face_death[f] <= step)
+            continue;
+        Corners& corners = triangles.emplace_back();
+        for (std::size_t k = 0; k < 3; ++k)
+            corners[k] = glm::dvec3(
+                wedgePosition(sequence, submesh, stands_for[sequence.complex.faces[f][k]], step));
+    }
+    return triangles;
+}
+
+double stretchOf(const Scene& scene, InstanceRange range) {
+    double stretch = 0.0;
+    for (std::uint32_t i = range.begin; i < range.end; ++i)
+        stretch = std::max(stretch, scaleOf(scene.instances[i].transform));
+    return stretch;
+}
+
+class CoverFinder {
+public:
+    CoverFinder(const Scene& scene, std::span<const InstanceRange> ranges)
+        : scene_(scene), ranges_(ranges), sampled_(ranges.size()) {
+        tbb::parallel_for(std::size_t{0}, ranges.size(), [&](std::size_t s) {
+            sampled_[s] = sample(scene, s, ranges[s]);
+        });
+    }
+
+    // False if nothing can be covered.
+    bool gather(std::span<const CollapseSequence> sequences, double tolerance);
+
+    Cover coverOf(std::size_t submesh) const;
+
+private:
+    struct Measured {
+        double distance2 = 0.0;
+        double cost2 = 0.0;
+    };
+
+    Measured measure(std::size_t submesh, const glm::dmat4& transform) const;
+
+    const Scene& scene_;
+    std::span<const InstanceRange> ranges_;
+    std::vector<Sampled> sampled_; // [submeshes]
+    TriangleGrid grid_;
+};
+
+bool CoverFinder::gather(std::span<const CollapseSequence> sequences, double tolerance) {
+    double least = std::numeric_limits<double>::infinity(); // area of what may need a cover
+    for (std::size_t s = 0; s < ranges_.size(); ++s)
+        if (ranges_[s].size() > 1 && sampled_[s].mean_area > 0.0)
+            least = std::min(least, sampled_[s].mean_area);
+    std::vector<std::uint32_t> order(ranges_.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::ranges::stable_sort(
+        order, std::greater{}, [&](std::uint32_t s) { return sampled_[s].mean_area; });
+    std::vector<GridTriangle> all;
+    for (const std::uint32_t s : order) {
+        if (!(sampled_[s].mean_area >= kLarger * least))
+            break;
+        const double stretch = stretchOf(scene_, ranges_[s]);
+        const std::vector<Corners> local =
+            trianglesAt(sequences[s],
+                        scene_.submeshes[s],
+                        stretch > 0.0 ? stepWithin(sequences[s], tolerance / stretch) : 0);
+        if (all.size() + local.size() * ranges_[s].size() > kMaxTriangles)
+            break;
+        for (std::uint32_t i = ranges_[s].begin; i < ranges_[s].end; ++i)
+            for (const Corners& corners : local) {
+                GridTriangle& triangle = all.emplace_back();
+                triangle.owner = s;
+                for (std::size_t k = 0; k < 3; ++k)
+                    triangle.corners[k] =
+                        glm::dvec3(scene_.instances[i].transform * glm::dvec4(corners[k], 1.0));
+            }
+    }
+    grid_ = TriangleGrid(std::move(all));
+    return !grid_.empty();
+}
+
+CoverFinder::Measured CoverFinder::measure(std::size_t submesh, const glm::dmat4& transform) const {
+    const Sampled& own = sampled_[submesh];
+    const double radius = own.radius * scaleOf(transform);
+    Measured sum;
+    for (const glm::dvec3& point : own.points) {
+        const glm::dvec3 at(transform * glm::dvec4(point, 1.0));
+        Measured best{radius * radius, radius * radius};
+        grid_.visitNear(at, radius, [&](const GridTriangle& triangle) {
+            const Sampled& other = sampled_[triangle.owner];
+            if (other.mean_area < kLarger * own.mean_area)
+                return best.cost2;
+            const glm::dvec3 contrast = (other.color - own.color) * (0.5 * radius);
+            const double distance2 = squaredDistance(at, triangle.corners);
+            const double cost2 = distance2 + glm::dot(contrast, contrast) / 3.0;
+            if (cost2 < best.cost2)
+                best = {distance2, cost2};
+            return best.cost2;
+        });
+        sum.distance2 += best.distance2;
+        sum.cost2 += best.cost2;
+    }
+    return {sum.distance2 / kSamples, sum.cost2 / kSamples};
+}
+
+Cover CoverFinder::coverOf(std::size_t submesh) const {
+    const InstanceRange range = ranges_[submesh];
+    if (range.size() < 2 || !(sampled_[submesh].mean_area > 0.0))
+        return {};
+    const std::uint32_t count = std::min(range.size(), kInstances);
+    Measured sum;
+    double reach2 = 0.0;
+    for (std::uint32_t k = 0; k < count; ++k) {
+        const auto offset = std::uint64_t{k} * range.size() / count;
+        const glm::dmat4& transform =
+            scene_.instances[range.begin + static_cast<std::uint32_t>(offset)].transform;
+        const Measured measured = measure(submesh, transform);
+        sum.distance2 += measured.distance2;
+        sum.cost2 += measured.cost2;
+        const double radius = kCovered * sampled_[submesh].radius * scaleOf(transform);
+        reach2 += radius * radius;
+    }
+    if (!(sum.cost2 <= reach2))
+        return {};
+    return {std::sqrt(sum.distance2 / count), std::sqrt(sum.cost2 / count)};
+}
+
+} // namespace
+
+std::vector<Cover> findCovers(const Scene& scene,
+                              std::span<const InstanceRange> ranges,
+                              std::span<const CollapseSequence> sequences,
+                              double tolerance) {
+    std::vector<Cover> covers(ranges.size());
+    CoverFinder finder(scene, ranges);
+    if (finder.gather(sequences, tolerance))
+        tbb::parallel_for(
+            std::size_t{0}, covers.size(), [&](std::size_t s) { covers[s] = finder.coverOf(s); });
+    return covers;
+}
+
+} // namespace lodestone
