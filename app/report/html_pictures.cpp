@@ -14,7 +14,7 @@ std::string figureOf(const Comparison& comparison, const ComparisonRow& row, std
     return fmt::format(
         R"(<figure class="lane" style="{0}">
 <figcaption>{1}<span class="quiet">{2}</span></figcaption>
-<a href="#stage" data-pick="{3}"><img id="picture-{3}" data-name="{4}" src="data:image/png;base64,{5}" width="1200" height="900" alt="{6} drawn with {4}: {7} triangles" decoding="async"/></a>
+<a href="#stage" data-pick="{3}"><img id="picture-{3}" data-name="{4}" src="data:image/png;base64,{5}" width="1200" height="900" alt="{6} drawn with {4}: {7} triangles"/></a>
 <p class="numbers"><span><strong>{7}</strong> tri <span class="quiet">{8}</span></span><strong>{9}</strong></p>
 </figure>
 )",

@@ -158,6 +158,8 @@ h1{font-size:24px}
 .controls .segments{align-self:start}
 .controls .segments:first-child{grid-column:1/-1}
 .hint{display:none}
+.pictures{grid-template-columns:1fr 1fr;gap:10px}
+.pictures figcaption,.numbers{flex-wrap:wrap;padding:8px 10px}
 .notes{grid-template-columns:1fr;gap:4px}
 .notes dd{margin-bottom:10px}
 .chart-card{padding:12px 8px 4px}

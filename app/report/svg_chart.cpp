@@ -8,6 +8,8 @@
 #include <cmath>
 #include <fmt/core.h>
 #include <limits>
+#include <numeric>
+#include <span>
 
 namespace lodestone {
 
@@ -49,27 +51,31 @@ public:
         return first_px_ + share * (last_px_ - first_px_);
     }
 
-    // 1, 2, 5 of every decade, or whole decades where those would crowd.
+    // Round values, as many as fit without crowding.
     std::vector<double> ticks() const {
         constexpr std::size_t kMost = 8;
-        for (const bool fine : {true, false}) {
-            const std::vector<double> found = ticksOf(fine);
-            if (found.size() <= kMost || !fine)
+        static constexpr std::array<int, 9> kOnes = {10, 20, 30, 40, 50, 60, 70, 80, 90};
+        static constexpr std::array<int, 3> kFew = {10, 20, 50};
+        std::array<int, 90> tenths{};
+        std::iota(tenths.begin(), tenths.end(), 10);
+        for (const std::span<const int> digits : {std::span<const int>(tenths),
+                                                  std::span<const int>(kOnes),
+                                                  std::span<const int>(kFew)})
+            if (std::vector<double> found = ticksOf(digits); found.size() <= kMost)
                 return found;
-        }
-        return {};
+        return ticksOf(std::span(kFew).first(1));
     }
 
 private:
-    std::vector<double> ticksOf(bool fine) const {
+    // tenths: of the ticks within every decade, 10..99.
+    std::vector<double> ticksOf(std::span<const int> tenths) const {
         std::vector<double> found;
         const int first = static_cast<int>(std::floor(log_low_));
         const int last = static_cast<int>(std::ceil(log_high_));
         for (int decade = first; decade <= last; ++decade)
-            for (const double digit : {1.0, 2.0, 5.0}) {
-                const double value = digit * std::pow(10.0, decade);
-                const bool inside = std::log10(value) >= log_low_ && std::log10(value) <= log_high_;
-                if (inside && (fine || digit == 1.0))
+            for (const int tenth : tenths) {
+                const double value = 0.1 * tenth * std::pow(10.0, decade);
+                if (std::log10(value) >= log_low_ && std::log10(value) <= log_high_)
                     found.push_back(value);
             }
         return found;

@@ -212,6 +212,17 @@ TEST(SvgChart, LargerIsFurtherRightAndFurtherUp) {
     EXPECT_LT(reference, y[1]);
 }
 
+TEST(SvgChart, EveryRangeHasSomeTicksAndNotTooMany) {
+    for (const double factor : {1.05, 1.3, 3.0, 40.0, 1e4, 1e7}) {
+        Chart chart;
+        chart.series.resize(1);
+        chart.series[0].points = {{3.2, 3.2, {}}, {3.2 * factor, 3.2 * factor, {}}};
+        const std::size_t ticks = countOf(svgChart(chart), "class=\"tick\"");
+        EXPECT_GE(ticks, 4u) << factor; // of both axes
+        EXPECT_LE(ticks, 16u) << factor;
+    }
+}
+
 TEST(ComparisonText, ColumnsOfTheTableAreAligned) {
     const std::vector<std::string> lines = linesOf(comparisonTable(comparisonOf(1120)));
     ASSERT_GE(lines.size(), 3u);
