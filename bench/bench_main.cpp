@@ -136,14 +136,11 @@ void addMicroPart(Report& report, const Options& options) {
 #ifdef LODESTONE_MICROBENCH
     std::cerr << "hot paths\n";
     // It exits with 1 if a path has become slower; that line is in its output, as this is.
-    const Result<Ran> ran = runProgram({"sh",
-                                        "-c",
-                                        "\"$0\" \"$@\" || echo \"- exit code $?\"",
-                                        LODESTONE_MICROBENCH,
-                                        "--baseline",
-                                        LODESTONE_SOURCE_DIR "/bench/micro_baseline.json",
-                                        "--seconds",
-                                        options.quick ? "0.02" : "0.2"});
+    const std::string script = "\"$0\" \"$@\" || echo \"- exit code $?\"";
+    const std::string baseline = std::string(LODESTONE_SOURCE_DIR) + "/bench/micro_baseline.json";
+    const std::string seconds = options.quick ? "0.02" : "0.2";
+    const Result<Ran> ran = runProgram(
+        {"sh", "-c", script, LODESTONE_MICROBENCH, "--baseline", baseline, "--seconds", seconds});
     if (!ran) {
         std::cerr << "lodestone_bench: " << ran.error().message << '\n';
         report.exit_code = exitCode(ran.error().kind);

@@ -52,6 +52,7 @@ public:
             return fail(ErrorKind::Failed, "the reference kernel did not run");
         const double unit = spreadOf(reference->second).median;
         std::vector<HotPath> paths;
+        paths.reserve(names_.size());
         for (const std::string& name : names_) {
             const Spread seconds = spreadOf(seconds_.at(name));
             paths.push_back({name, seconds, seconds.median / unit});
@@ -73,6 +74,7 @@ Result<std::vector<HotPath>> measure(const Options& options) {
                                    fmt::format("--benchmark_repetitions={}", options.repetitions),
                                    "--benchmark_enable_random_interleaving=true"};
     std::vector<char*> arguments;
+    arguments.reserve(words.size());
     for (std::string& word : words)
         arguments.push_back(word.data());
     auto count = static_cast<int>(arguments.size());

@@ -53,6 +53,7 @@ Result<Ran> runProgram(const std::vector<std::string>& arguments) {
         return fail(ErrorKind::Failed, arguments.front() + ": no pipe for its output");
     std::vector<std::string> words = arguments;
     std::vector<char*> pointers;
+    pointers.reserve(words.size() + 1);
     for (std::string& word : words)
         pointers.push_back(word.data());
     pointers.push_back(nullptr);

@@ -42,6 +42,7 @@ std::vector<std::uint32_t> compact(PeerMesh& mesh) {
         index = place[index];
     }
     std::vector<glm::vec3> positions;
+    positions.reserve(kept.size());
     for (const std::uint32_t vertex : kept)
         positions.push_back(mesh.positions[vertex]);
     mesh.positions = std::move(positions);

@@ -58,8 +58,8 @@ Result<Reduced> simplifyInNode(const std::string& npm, std::span<const Job> jobs
     const std::filesystem::path in = scratch.path() / "jobs.bin";
     const std::filesystem::path out = scratch.path() / "reduced.bin";
     writeJobs(in, jobs);
-    const Result<Ran> ran = runProgram(
-        {"node", LODESTONE_SOURCE_DIR "/bench/peers/simplify.mjs", npm, in.string(), out.string()});
+    const std::string script = std::string(LODESTONE_SOURCE_DIR) + "/bench/peers/simplify.mjs";
+    const Result<Ran> ran = runProgram({"node", script, npm, in.string(), out.string()});
     if (!ran)
         return tl::unexpected(ran.error());
     Result<Reduced> reduced = readReduced(out, jobs);
