@@ -192,6 +192,33 @@ void repairAttributes(PrimitiveData& data,
     }
 }
 
+// Normals that are far from unit length draw black or blazing: they get it, if they have any
+// length.
+void normaliseNormals(Geometry& geometry,
+                      const std::string& name,
+                      std::vector<std::string>& notes) {
+    constexpr float kTolerance = 0.1f;
+    for (Attribute& attribute : geometry.attributes) {
+        if (attribute.semantic != "NORMAL" || attribute.components != 3)
+            continue;
+        std::size_t changed = 0;
+        for (std::size_t v = 0; v < geometry.positions.size(); ++v) {
+            const glm::vec3 normal(attributeValue(attribute, v, 0),
+                                   attributeValue(attribute, v, 1),
+                                   attributeValue(attribute, v, 2));
+            const float length = glm::length(normal);
+            if (std::abs(length - 1.0f) <= kTolerance || !(length > 0.0f) || !std::isfinite(length))
+                continue;
+            for (int c = 0; c < 3; ++c)
+                setAttributeValue(attribute, v, static_cast<std::size_t>(c), normal[c] / length);
+            ++changed;
+        }
+        if (changed != 0)
+            notes.push_back(name + ": " + std::to_string(changed) +
+                            " normals were not of unit length and were made so");
+    }
+}
+
 // Attributes of a primitive or a morph target. decoded: compressed data that stand in for some of
 // its accessors. with_position: morph targets keep POSITION here.
 Result<std::vector<Attribute>> readAttributes(const json& map,
@@ -298,6 +325,7 @@ Result<std::optional<PrimitiveData>> readPrimitive(const json& primitive,
         return tl::make_unexpected(others.error());
     data.geometry.attributes = std::move(*others);
     repairAttributes(data, name, notes);
+    normaliseNormals(data.geometry, name, notes);
     if (Result<void> read = readMorphTargets(primitive, accessors, data.geometry); !read)
         return tl::make_unexpected(read.error());
     return data;

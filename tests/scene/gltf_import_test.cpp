@@ -524,3 +524,19 @@ TEST(GltfImport, UncompressedDataBesideACompressedTwinAreRead) {
     EXPECT_FALSE(scene->source->json.contains("extensionsUsed"));
     EXPECT_TRUE(scene->notes.empty());
 }
+
+TEST(GltfImport, NormalsFarFromUnitLengthAreMadeUnitAndNoted) {
+    GltfMaker maker;
+    const std::size_t mesh = maker.addTriangle();
+    const std::vector<float> normals{0, 0, 0.0625f, 0, 0, 1, 0, 0, 0};
+    maker.json["meshes"][mesh]["primitives"][0]["attributes"]["NORMAL"] =
+        maker.addAccessor(normals, 5126, "VEC3");
+    maker.addNode({{"mesh", mesh}});
+    const ScenePtr scene = maker.scene();
+    const Attribute& read = scene->submeshes[0].primitives[0].geometry->attributes[0];
+    EXPECT_FLOAT_EQ(attributeValue(read, 0, 2), 1.0f);
+    EXPECT_FLOAT_EQ(attributeValue(read, 1, 2), 1.0f);
+    EXPECT_FLOAT_EQ(attributeValue(read, 2, 2), 0.0f); // has no direction to keep
+    ASSERT_EQ(scene->notes.size(), 1u);
+    EXPECT_NE(scene->notes[0].find("1 normals were not of unit length"), std::string::npos);
+}
