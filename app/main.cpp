@@ -4,6 +4,7 @@
 #include "app/log.h"
 #include "app/main/headless_images.h"
 #include "app/signals.h"
+#include "simplify/pointcloud/advancing_front.h"
 #ifdef LODESTONE_WITH_WINDOW
 #include "app/main/window_loop.h"
 #endif
@@ -17,10 +18,13 @@ namespace {
 
 std::string optionalParts() {
 #ifdef LODESTONE_WITH_WINDOW
-    return "window: GLFW, Dear ImGui; import: tinygltf, assimp; distance: Embree";
+    std::string parts = "window: GLFW, Dear ImGui";
 #else
-    return "no window; import: tinygltf, assimp; distance: Embree";
+    std::string parts = "no window";
 #endif
+    parts += "; import: tinygltf, Draco, meshoptimizer, assimp; distance: Embree; surfaces from "
+             "points: ";
+    return parts + (canRebuildFromPoints() ? "CGAL (GPL-3)" : "none");
 }
 
 #ifndef LODESTONE_WITH_WINDOW
