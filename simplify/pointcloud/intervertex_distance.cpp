@@ -3,6 +3,7 @@
 #include "simplify/pointcloud/methods.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lodestone {
 
@@ -24,13 +25,33 @@ bool mergeSide(MergeBuilder& builder, const Triangle& roots, std::size_t side) {
     return builder.merge(ends, (builder.position(ends[0]) + builder.position(ends[1])) * 0.5);
 }
 
-} // namespace
+double diagonalOf(const CloudSurface& surface) {
+    Bounds bounds;
+    for (const glm::dvec3& position : surface.positions)
+        bounds.add(position);
+    return bounds.diagonal();
+}
 
-Merges intervertexDistance(const CloudSurface& surface,
-                           double distance,
-                           Fidelity fidelity,
-                           const JobContext& job) {
-    MergeBuilder builder(surface, fidelity);
+// The thresholds of the walks that lead to `distance`: short sides go before long ones, so that a
+// long one that merged early does not stop its surroundings from merging, and a larger threshold
+// starts from what a smaller one made. The steps before the last do not depend on `distance`.
+std::vector<double> thresholds(const CloudSurface& surface, double distance, Fidelity fidelity) {
+    constexpr int kFewest = -9; // of the diagonal, as a power of two
+    std::vector<double> steps;
+    if (fidelity == Fidelity::Sound) {
+        const double diagonal = diagonalOf(surface);
+        for (int power = kFewest; std::ldexp(diagonal, power) < distance; ++power)
+            steps.push_back(std::ldexp(diagonal, power));
+    }
+    steps.push_back(distance);
+    return steps;
+}
+
+void walkByDistance(const CloudSurface& surface,
+                    MergeBuilder& builder,
+                    double distance,
+                    Fidelity fidelity,
+                    const JobContext& job) {
     for (std::size_t f = 0; f < surface.faces.size() && !stopsAt(f, job); ++f) {
         const Triangle roots = builder.rootsOf(f);
         if (isCollapsed(roots))
@@ -47,14 +68,13 @@ Merges intervertexDistance(const CloudSurface& surface,
         if (near_count >= 1)
             mergeSide(builder, roots, shortest);
     }
-    return builder.finish();
 }
 
-Merges vertexTriplexDistance(const CloudSurface& surface,
-                             double distance,
-                             Fidelity fidelity,
-                             const JobContext& job) {
-    MergeBuilder builder(surface, fidelity);
+void walkByTriplex(const CloudSurface& surface,
+                   MergeBuilder& builder,
+                   double distance,
+                   Fidelity fidelity,
+                   const JobContext& job) {
     for (std::size_t f = 0; f < surface.faces.size() && !stopsAt(f, job); ++f) {
         const Triangle roots = builder.rootsOf(f);
         if (isCollapsed(roots))
@@ -78,6 +98,27 @@ Merges vertexTriplexDistance(const CloudSurface& surface,
             break;
         }
     }
+}
+
+} // namespace
+
+Merges intervertexDistance(const CloudSurface& surface,
+                           double distance,
+                           Fidelity fidelity,
+                           const JobContext& job) {
+    MergeBuilder builder(surface, fidelity);
+    for (const double step : thresholds(surface, distance, fidelity))
+        walkByDistance(surface, builder, step, fidelity, job);
+    return builder.finish();
+}
+
+Merges vertexTriplexDistance(const CloudSurface& surface,
+                             double distance,
+                             Fidelity fidelity,
+                             const JobContext& job) {
+    MergeBuilder builder(surface, fidelity);
+    for (const double step : thresholds(surface, distance, fidelity))
+        walkByTriplex(surface, builder, step, fidelity, job);
     return builder.finish();
 }
 

@@ -19,7 +19,8 @@ vertexTriplex(const CloudSurface& surface, double share, Fidelity fidelity, cons
 
 // IVDD: in triangle order, if a vertex is nearer than `distance` to both others all three become
 // the centre of their circle, else the ends of an edge shorter than that become its midpoint.
-// Merged vertices carry their new place in everything later.
+// Merged vertices carry their new place in everything later. Sound: after the same walks with
+// smaller thresholds, halves of halves.
 Merges intervertexDistance(const CloudSurface& surface,
                            double distance,
                            Fidelity fidelity,
@@ -34,7 +35,7 @@ Merges sphericalScanning(const CloudSurface& surface,
 
 // VTD: in triangle order, three edges all below `distance` become the centre of their circle;
 // beside one edge within it, the longer of the other two becomes its midpoint (Sound: the short one
-// if that is more than twice as long as `distance`).
+// if that is more than twice as long as `distance`, and walks as in IVDD).
 Merges vertexTriplexDistance(const CloudSurface& surface,
                              double distance,
                              Fidelity fidelity,
