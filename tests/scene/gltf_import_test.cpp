@@ -287,7 +287,7 @@ TEST(GltfImport, AFileWithoutScenesShowsItsRootNodes) {
     maker.json.erase("scenes");
     const ScenePtr scene = maker.scene();
     EXPECT_EQ(scene->instances.size(), 1u);
-    EXPECT_EQ(scene->source->json["scenes"][0]["nodes"], json({0}));
+    EXPECT_EQ(scene->source->json["scenes"][0]["nodes"], json::array({0}));
 }
 
 TEST(GltfImport, AMeshThatNoNodeDrawsIsKeptButDoesNotCount) {
