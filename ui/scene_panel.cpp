@@ -100,8 +100,10 @@ void drawRow(const Ui& ui,
     ImFont* const small = ui.theme.fonts.small;
     const float name_width =
         at.instances_right - textWidth(ui, count, small) - ui.px(6) - at.name_x;
-    drawText(ui, {at.name_x, y}, Align::Left, fitText(ui, item.name, name_width));
-    tooltip(ui, item.name);
+    const std::string name =
+        item.name.empty() ? "submesh " + std::to_string(submesh + 1) : item.name;
+    drawText(ui, {at.name_x, y}, Align::Left, fitText(ui, name, name_width));
+    tooltip(ui, name);
     drawText(
         ui, {at.instances_right, y + ui.px(2)}, Align::Right, count, {small, color::kSecondary});
     const std::uint64_t before = triangleCount(item);
@@ -110,7 +112,7 @@ void drawRow(const Ui& ui,
     drawText(ui,
              {at.triangles_right, y},
              Align::Right,
-             now < 100'000 ? formatCount(now) : formatShortCount(now));
+             now < 10'000 ? formatCount(now) : formatShortCount(now));
     const float bar_width = at.lock_x - ui.px(12) - at.bar_x;
     const double kept = before > 0 ? static_cast<double>(now) / static_cast<double>(before) : 0.0;
     progressLine(
