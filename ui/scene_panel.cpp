@@ -66,7 +66,7 @@ struct RowColumns {
 RowColumns rowColumns(const Ui& ui, float left, float width) {
     const float right = left + width;
     return {left + ui.px(12),
-            left + ui.px(102),
+            left + ui.px(99),
             left + ui.px(142),
             left + ui.px(148),
             right - ui.px(16)};
@@ -100,8 +100,7 @@ void drawRow(const Ui& ui,
     ImFont* const small = ui.theme.fonts.small;
     const float name_width =
         at.instances_right - textWidth(ui, count, small) - ui.px(6) - at.name_x;
-    const std::string name =
-        item.name.empty() ? "submesh " + std::to_string(submesh + 1) : item.name;
+    const std::string name = item.name.empty() ? "mesh " + std::to_string(submesh + 1) : item.name;
     drawText(ui, {at.name_x, y}, Align::Left, fitText(ui, name, name_width));
     tooltip(ui, name);
     drawText(
