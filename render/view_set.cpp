@@ -64,7 +64,7 @@ Result<bool> ViewSet::isSceneReady(const ScenePtr& scene) {
 }
 
 Result<bool> ViewSet::isReady(const Item& item, const Wanted& wanted) {
-    if (const Result<bool> scene = isSceneReady(wanted.scene); !scene || !*scene)
+    if (Result<bool> scene = isSceneReady(wanted.scene); !scene || !*scene)
         return scene;
     const std::shared_ptr<const Lod>& lod = wanted.draft ? wanted.draft : wanted.lod;
     const Item::Uploaded& last = wanted.draft ? item.draft : item.full;

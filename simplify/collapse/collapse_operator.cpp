@@ -94,7 +94,7 @@ bool ComponentMesh::staysUpright(std::span<const RingFace> ring, Float3 to) cons
 // would overdo it next to vertices that still lie outside. at, half: from the edge's middle.
 Float3 ComponentMesh::towardsVolume(std::uint32_t a, std::uint32_t b, Float3 at, Float3 half) {
     constexpr float kShare = 0.8f;
-    const auto areaOf = [&](std::span<RingFace> ring, Float3 from) {
+    const auto area_of = [&](std::span<RingFace> ring, Float3 from) {
         Float3 area;
         for (RingFace& face : ring) {
             const Float3 u = points_[face.next].position;
@@ -103,8 +103,8 @@ Float3 ComponentMesh::towardsVolume(std::uint32_t a, std::uint32_t b, Float3 at,
         }
         return area;
     };
-    const Float3 area_a = areaOf(ring_a_, points_[a].position);
-    const Float3 area_b = areaOf(ring_b_, points_[b].position);
+    const Float3 area_a = area_of(ring_a_, points_[a].position);
+    const Float3 area_b = area_of(ring_b_, points_[b].position);
     Float3 area = area_a + area_b;
     for (const std::uint32_t f : dying_)
         area = area + faceNormal(faces_[f]);

@@ -15,8 +15,8 @@ constexpr std::size_t kChunkTriangles = 256; // of one piece, looked at together
 constexpr std::size_t kBatchChunks = 2048;   // what is held at a time
 constexpr double kHope = 0.05;              // share of a bound's excess that is expected to be real
 constexpr std::size_t kMostOpen = 1u << 16; // triangles kept for splitting
-constexpr std::size_t kRoundTriangles = 1024;  // split at a time, the most promising ones
-constexpr std::size_t kMostSplits = 16 * 1024; // in all
+constexpr std::size_t kRoundTriangles = 1024; // split at a time, the most promising ones
+constexpr std::size_t kMostSplits = std::size_t{16} * 1024; // in all
 
 double threshold(double reached) {
     return reached * (1.0 + kTolerance) + kSmallest;
@@ -199,7 +199,7 @@ public:
         const std::vector<Chunk> chunks = chunksOf(pieces);
         for (std::size_t first = 0; first < chunks.size(); first += kBatchChunks) {
             const std::size_t count = std::min(kBatchChunks, chunks.size() - first);
-            const Result<void> done = searchAll(count, [&](std::size_t i, Found& found) {
+            Result<void> done = searchAll(count, [&](std::size_t i, Found& found) {
                 const Chunk& chunk = chunks[first + i];
                 searchChunk(pieces[chunk.piece], chunk, to_, found);
             });
@@ -218,7 +218,7 @@ public:
             const std::vector<Open> round(open_.begin(),
                                           open_.begin() + static_cast<std::ptrdiff_t>(count));
             open_.erase(open_.begin(), open_.begin() + static_cast<std::ptrdiff_t>(count));
-            const Result<void> done =
+            Result<void> done =
                 searchAll(count, [&](std::size_t i, Found& found) { split(round[i], to_, found); });
             if (!done)
                 return done;

@@ -236,7 +236,7 @@ bool FaceAnglePass::closePart(std::uint32_t vertex,
 
 // No edge across the hole is there already, and no face that the new ones would lie upon.
 bool FaceAnglePass::isNew(std::span<const Triangle> faces, std::size_t ring_size) const {
-    const auto vertexOf = [&](std::uint32_t wedge) { return surface_.wedge_vertex[wedge]; };
+    const auto vertex_of = [&](std::uint32_t wedge) { return surface_.wedge_vertex[wedge]; };
     const auto is_rim = [&](std::uint32_t a, std::uint32_t b) {
         for (std::size_t i = 0; i < fan_.faces.size(); ++i)
             if (fan_.spokes[i].vertex == a && fan_.spokes[(i + 1) % fan_.spokes.size()].vertex == b)
@@ -245,15 +245,15 @@ bool FaceAnglePass::isNew(std::span<const Triangle> faces, std::size_t ring_size
     };
     for (const Triangle& face : faces)
         for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t a = vertexOf(face[k]);
-            const std::uint32_t b = vertexOf(face[(k + 1) % 3]);
+            const std::uint32_t a = vertex_of(face[k]);
+            const std::uint32_t b = vertex_of(face[(k + 1) % 3]);
             if (!is_rim(a, b) && hasEdge(a, b))
                 return false;
         }
     if (ring_size > 3)
         return true;
     // A single face: its mirror image may be there, on the far side of a thin spike.
-    const Triangle corners{vertexOf(faces[0][0]), vertexOf(faces[0][1]), vertexOf(faces[0][2])};
+    const Triangle corners{vertex_of(faces[0][0]), vertex_of(faces[0][1]), vertex_of(faces[0][2])};
     return !new_edges_.contains(corners[0], corners[1]) &&
            std::ranges::none_of(stars_.of(corners[0]), [&](std::uint32_t f) {
                if (gone_[f])
