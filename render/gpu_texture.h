@@ -1,11 +1,9 @@
 #pragma once
 // Inside render/ only: the scene's images as GL textures.
 #include "render/gl_object.h"
-#include "scene/scene.h"
+#include "scene/decoded_image.h"
 
 #include <cstdint>
-#include <memory>
-#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -28,16 +26,8 @@ struct GpuTexture {
     std::uint64_t bytes = 0;
 };
 
-// RGBA, 8 bits a channel, top row first.
-struct DecodedImage {
-    std::unique_ptr<unsigned char, void (*)(void*)> rgba; // null: see fault
-    int width = 0;
-    int height = 0;
-    std::string fault; // a line about the image; empty: decoded
-};
-
-// Decodes PNG and JPEG (and whatever else stb_image knows) in parallel: images[i] for wishes[i].
-// Any thread; no GL.
+// Decodes in parallel: images[i] for wishes[i]; a fault is a line about the image. Any thread; no
+// GL.
 std::vector<DecodedImage>
 decodeImages(const Scene& scene, const std::vector<TextureWish>& wishes, int max_size_px);
 

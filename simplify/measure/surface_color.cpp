@@ -6,40 +6,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <memory>
-#include <stb_image.h>
 #include <tbb/parallel_for.h>
 
 namespace lodestone {
 
 namespace {
-
-constexpr std::int64_t kMostPixels = std::int64_t{1} << 27; // 512 MiB decoded
-
-DecodedImage decodedImage(const Image& image) {
-    DecodedImage decoded;
-    if (!image.bytes || image.bytes->empty() ||
-        image.bytes->size() > std::size_t{std::numeric_limits<int>::max()})
-        return decoded;
-    const auto* data = reinterpret_cast<const stbi_uc*>(image.bytes->data());
-    const int size_bytes = static_cast<int>(image.bytes->size());
-    int width = 0;
-    int height = 0;
-    int channels = 0;
-    if (stbi_info_from_memory(data, size_bytes, &width, &height, &channels) == 0 || width < 1 ||
-        height < 1 || std::int64_t{width} * height > kMostPixels)
-        return decoded;
-    const std::unique_ptr<stbi_uc, void (*)(void*)> rgba(
-        stbi_load_from_memory(data, size_bytes, &width, &height, &channels, STBI_rgb_alpha),
-        stbi_image_free);
-    if (!rgba)
-        return decoded;
-    decoded.width_px = static_cast<std::uint32_t>(width);
-    decoded.height_px = static_cast<std::uint32_t>(height);
-    decoded.rgba.assign(rgba.get(),
-                        rgba.get() + std::size_t{4} * decoded.width_px * decoded.height_px);
-    return decoded;
-}
 
 // Texel number of any integer position along an axis of `size` texels.
 std::uint32_t wrapped(std::int64_t at, std::uint32_t size, TextureWrap wrap) {
@@ -76,26 +47,22 @@ glm::vec3 attributeAt(const Attribute& attribute,
     return value;
 }
 
-std::string imageLabel(const Scene& scene, std::size_t index) {
-    const Image& image = scene.images[index];
-    const std::string& name = !image.name.empty() ? image.name : image.uri;
-    return scene.name + ": image " + std::to_string(index) +
-           (name.empty() ? std::string() : " (" + name + ")");
-}
-
-} // namespace
-
-glm::vec3 DecodedImage::linearAt(const glm::vec2& uv, const TextureRef& texture) const {
+// Linear colour of a decoded image at uv (0,0 top left), bilinear or nearest, wrapped as the
+// reference says.
+glm::vec3 linearAt(const DecodedImage& image, const glm::vec2& uv, const TextureRef& texture) {
+    const auto width = static_cast<std::uint32_t>(image.width);
+    const auto height = static_cast<std::uint32_t>(image.height);
     const auto texel = [&](std::int64_t x, std::int64_t y) {
         const std::size_t at =
-            std::size_t{4} * (std::size_t{wrapped(y, height_px, texture.wrap_v)} * width_px +
-                              wrapped(x, width_px, texture.wrap_u));
+            std::size_t{4} * (std::size_t{wrapped(y, height, texture.wrap_v)} * width +
+                              wrapped(x, width, texture.wrap_u));
         const auto& linear = linearBytes();
-        return glm::vec3(linear[rgba[at]], linear[rgba[at + 1]], linear[rgba[at + 2]]);
+        const unsigned char* rgb = image.rgba.get() + at;
+        return glm::vec3(linear[rgb[0]], linear[rgb[1]], linear[rgb[2]]);
     };
     // Far outside, float has no fractions left and integers would overflow.
     constexpr double kFarTexels = 1e9;
-    const glm::dvec2 size(width_px, height_px);
+    const glm::dvec2 size(width, height);
     const glm::dvec2 at = glm::clamp(glm::dvec2(uv) * size, -kFarTexels, kFarTexels);
     if (texture.nearest)
         return texel(static_cast<std::int64_t>(std::floor(at.x)),
@@ -109,6 +76,15 @@ glm::vec3 DecodedImage::linearAt(const glm::vec2& uv, const TextureRef& texture)
                     share.y);
 }
 
+std::string imageLabel(const Scene& scene, std::size_t index) {
+    const Image& image = scene.images[index];
+    const std::string& name = !image.name.empty() ? image.name : image.uri;
+    return scene.name + ": image " + std::to_string(index) +
+           (name.empty() ? std::string() : " (" + name + ")");
+}
+
+} // namespace
+
 SurfaceColors::SurfaceColors(const Scene& scene) : scene_(scene), images_(scene.images.size()) {
     std::vector<bool> used(scene.images.size());
     for (const Material& material : scene.materials)
@@ -116,10 +92,10 @@ SurfaceColors::SurfaceColors(const Scene& scene) : scene_(scene), images_(scene.
             used[material.base_color_texture.image] = true;
     tbb::parallel_for(std::size_t{0}, images_.size(), [&](std::size_t i) {
         if (used[i])
-            images_[i] = decodedImage(scene.images[i]);
+            images_[i] = decodeImage(scene.images[i], std::numeric_limits<int>::max());
     });
     for (std::size_t i = 0; i < images_.size(); ++i)
-        if (used[i] && images_[i].rgba.empty())
+        if (used[i] && !images_[i].rgba)
             notes_.push_back(imageLabel(scene, i) +
                              " cannot be read and counts as white; use PNG or JPEG");
 }
@@ -136,12 +112,12 @@ glm::dvec3 SurfaceColors::at(const Geometry& geometry,
         linear = glm::vec3(material.base_color);
         const Attribute* uv =
             findAttribute(geometry.attributes, "TEXCOORD_" + std::to_string(texture.texcoord));
-        if (texture.image < images_.size() && !images_[texture.image].rgba.empty() && uv &&
+        if (texture.image < images_.size() && images_[texture.image].rgba && uv &&
             uv->components == 2) {
             glm::vec3 at = attributeAt(*uv, corners, weights, 2);
             at.z = 1.0f;
             linear *=
-                images_[texture.image].linearAt(glm::vec2(texture.uv_transform * at), texture);
+                linearAt(images_[texture.image], glm::vec2(texture.uv_transform * at), texture);
         }
     }
     const Attribute* color = findAttribute(geometry.attributes, "COLOR_0");

@@ -1,18 +1,8 @@
 #pragma once
 // The colour of any point of a scene's surface.
-#include "scene/scene.h"
+#include "scene/decoded_image.h"
 
 namespace lodestone {
-
-// A decoded image. Rows from the top.
-struct DecodedImage {
-    std::uint32_t width_px = 0;
-    std::uint32_t height_px = 0;
-    std::vector<std::uint8_t> rgba; // [4 * width_px * height_px], sRGB; empty: cannot be read
-
-    // Linear colour at uv (0,0 top left), bilinear or nearest, wrapped as the reference says.
-    glm::vec3 linearAt(const glm::vec2& uv, const TextureRef& texture) const; // image not empty
-};
 
 // Immutable once made; any number of threads.
 class SurfaceColors {

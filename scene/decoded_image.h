@@ -1,0 +1,19 @@
+#pragma once
+// Pixels of an image, for what draws or measures it; an export passes on the encoded bytes.
+#include "scene/scene.h"
+
+namespace lodestone {
+
+// RGBA, 8 bits a channel, top row first.
+struct DecodedImage {
+    std::unique_ptr<unsigned char, void (*)(void*)> rgba{nullptr, nullptr}; // null: see fault
+    int width = 0;
+    int height = 0;
+    std::string fault; // what is wrong with the image; empty: decoded
+};
+
+// Decodes PNG and JPEG (and whatever else stb_image knows), at most 2^27 pixels.
+// max_size_px: of a side. Any thread.
+DecodedImage decodeImage(const Image& image, int max_size_px);
+
+} // namespace lodestone
