@@ -60,6 +60,24 @@ parameterValue(const Algorithm& algorithm, const ParameterValues& values, std::s
     return info ? info->fallback : 0.0;
 }
 
+Result<void> checkParameters(const Algorithm& algorithm, const ParameterValues& values) {
+    for (const auto& entry : values) {
+        const std::string& id = entry.first;
+        const auto same = [&](const ParameterInfo& info) { return info.id == id; };
+        const auto found = std::ranges::find_if(algorithm.parameters, same);
+        if (found == algorithm.parameters.end())
+            return fail(ErrorKind::Usage,
+                        std::string(algorithm.id) + ": unknown parameter '" + id + "'");
+        const double maximum = found->kind == ParameterInfo::Kind::Choice
+                                   ? static_cast<double>(found->choices.size() - 1)
+                                   : found->maximum;
+        if (!(entry.second >= found->minimum && entry.second <= maximum))
+            return fail(ErrorKind::Usage,
+                        std::string(algorithm.id) + ": parameter '" + id + "' is out of range");
+    }
+    return {};
+}
+
 Result<double>
 parseParameter(const Algorithm& algorithm, std::string_view id, std::string_view text) {
     const ParameterInfo* info = findParameter(algorithm, id);

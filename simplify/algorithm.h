@@ -55,6 +55,8 @@ const Algorithm* findAlgorithm(std::string_view id); // nullptr if unknown
 // The value of a parameter, its default where missing.
 double
 parameterValue(const Algorithm& algorithm, const ParameterValues& values, std::string_view id);
+// Usage error naming a parameter that the algorithm has not, or whose value is out of its range.
+Result<void> checkParameters(const Algorithm& algorithm, const ParameterValues& values);
 // Usage error naming the parameter and its range or choices.
 Result<double>
 parseParameter(const Algorithm& algorithm, std::string_view id, std::string_view text);

@@ -1,14 +1,37 @@
 #pragma once
+#include "scene/import.h"
+
+#include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <string_view>
+#include <vector>
 
 namespace lodestone::tests {
 
 // The folder of real models beside the source tree; it need not exist.
 inline std::filesystem::path modelsFolder() {
     return std::filesystem::path(LODESTONE_SOURCE_DIR).parent_path() / "shared" / "models";
+}
+
+// Every importable file outside bad/, in order. The folder exists.
+inline std::vector<std::filesystem::path> modelFiles() {
+    std::vector<std::filesystem::path> files;
+    for (const char* folder : {"instanced", "textured", "features", "meshes"})
+        for (const auto& entry :
+             std::filesystem::recursive_directory_iterator(modelsFolder() / folder)) {
+            std::string extension = entry.path().extension().string();
+            std::ranges::transform(extension, extension.begin(), [](unsigned char c) {
+                return static_cast<char>(std::tolower(c));
+            });
+            if (entry.is_regular_file() &&
+                std::ranges::find(importExtensions(), extension) != importExtensions().end())
+                files.push_back(entry.path());
+        }
+    std::ranges::sort(files);
+    return files;
 }
 
 // A test that needs the real models: skipped where the folder is absent, failed where it is absent

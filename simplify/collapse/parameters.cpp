@@ -44,21 +44,8 @@ ParameterInfo removalParameter() {
 
 Result<EdgeCollapseOptions> readCollapseParameters(const Algorithm& algorithm,
                                                    const ParameterValues& values) {
-    for (const auto& entry : values) {
-        const std::string& id = entry.first;
-        const double value = entry.second;
-        const auto known = [&](const ParameterInfo& info) { return info.id == id; };
-        const auto found = std::ranges::find_if(algorithm.parameters, known);
-        if (found == algorithm.parameters.end())
-            return fail(ErrorKind::Usage,
-                        std::string(algorithm.id) + ": unknown parameter '" + id + "'");
-        const double maximum = found->kind == ParameterInfo::Kind::Choice
-                                   ? static_cast<double>(found->choices.size() - 1)
-                                   : found->maximum;
-        if (!(value >= found->minimum && value <= maximum))
-            return fail(ErrorKind::Usage,
-                        std::string(algorithm.id) + ": parameter '" + id + "' is out of range");
-    }
+    if (const Result<void> checked = checkParameters(algorithm, values); !checked)
+        return tl::unexpected(checked.error());
     EdgeCollapseOptions options;
     options.collapse.boundary_weight = parameterValue(algorithm, values, "boundary");
     options.collapse.boundary_by_length = parameterValue(algorithm, values, "boundary-rule") > 0.5;

@@ -47,57 +47,31 @@ std::vector<double> thresholds(const CloudSurface& surface, double distance, Fid
     return steps;
 }
 
-void walkByDistance(const CloudSurface& surface,
-                    MergeBuilder& builder,
-                    double distance,
-                    Fidelity fidelity,
-                    const JobContext& job) {
-    for (std::size_t f = 0; f < surface.faces.size() && !stopsAt(f, job); ++f) {
-        const Triangle roots = builder.rootsOf(f);
-        if (isCollapsed(roots))
-            continue;
-        const Triangle3d points = builder.pointsOf(roots);
-        const std::array<double, 3> sides = sidesOf(points);
-        const auto shortest =
-            static_cast<std::size_t>(std::ranges::min_element(sides) - sides.begin());
-        const auto near_count =
-            std::ranges::count_if(sides, [&](double side) { return side < distance; });
-        // Two short sides meet in a vertex that is near to both others.
-        if (near_count >= 2 && builder.merge(roots, triplexCentre(points, fidelity)))
-            continue;
-        if (near_count >= 1)
-            mergeSide(builder, roots, shortest);
-    }
-}
+// A face of three distinct roots, as the walk meets it.
+struct Met {
+    Triangle roots;
+    Triangle3d points;
+    std::array<double, 3> sides;
+};
 
-void walkByTriplex(const CloudSurface& surface,
-                   MergeBuilder& builder,
-                   double distance,
-                   Fidelity fidelity,
-                   const JobContext& job) {
-    for (std::size_t f = 0; f < surface.faces.size() && !stopsAt(f, job); ++f) {
-        const Triangle roots = builder.rootsOf(f);
-        if (isCollapsed(roots))
-            continue;
-        const Triangle3d points = builder.pointsOf(roots);
-        const std::array<double, 3> sides = sidesOf(points);
-        if (std::ranges::all_of(sides, [&](double side) { return side < distance; })) {
-            builder.merge(roots, triplexCentre(points, fidelity));
-            continue;
-        }
-        // d12, d13, d23 in this order: the sides opposite corners 2, 1, 0.
-        for (const std::size_t side : {2u, 1u, 0u}) {
-            if (sides[side] > distance)
+// Walks over the faces in order, once for each threshold; mergeFace(builder, face, threshold)
+// merges what it finds near.
+template <class MergeFace>
+Merges walk(const CloudSurface& surface,
+            double distance,
+            Fidelity fidelity,
+            const JobContext& job,
+            const MergeFace& mergeFace) {
+    MergeBuilder builder(surface, fidelity);
+    for (const double threshold : thresholds(surface, distance, fidelity))
+        for (std::size_t f = 0; f < surface.faces.size() && !stopsAt(f, job); ++f) {
+            const Triangle roots = builder.rootsOf(f);
+            if (isCollapsed(roots))
                 continue;
-            const std::size_t a = (side + 1) % 3;
-            const std::size_t b = (side + 2) % 3;
-            const std::size_t longer = sides[a] > sides[b] ? a : b;
-            // A far longer one would leave slivers across the surface.
-            const bool fits = fidelity == Fidelity::Literal || sides[longer] < 2.0 * distance;
-            mergeSide(builder, roots, fits ? longer : side);
-            break;
+            const Triangle3d points = builder.pointsOf(roots);
+            mergeFace(builder, Met{roots, points, sidesOf(points)}, threshold);
         }
-    }
+    return builder.finish();
 }
 
 } // namespace
@@ -106,20 +80,43 @@ Merges intervertexDistance(const CloudSurface& surface,
                            double distance,
                            Fidelity fidelity,
                            const JobContext& job) {
-    MergeBuilder builder(surface, fidelity);
-    for (const double step : thresholds(surface, distance, fidelity))
-        walkByDistance(surface, builder, step, fidelity, job);
-    return builder.finish();
+    const auto merge_near = [&](MergeBuilder& builder, const Met& met, double threshold) {
+        const auto shortest =
+            static_cast<std::size_t>(std::ranges::min_element(met.sides) - met.sides.begin());
+        const auto near_count =
+            std::ranges::count_if(met.sides, [&](double side) { return side < threshold; });
+        // Two short sides meet in a vertex that is near to both others.
+        if (near_count >= 2 && builder.merge(met.roots, triplexCentre(met.points, fidelity)))
+            return;
+        if (near_count >= 1)
+            mergeSide(builder, met.roots, shortest);
+    };
+    return walk(surface, distance, fidelity, job, merge_near);
 }
 
 Merges vertexTriplexDistance(const CloudSurface& surface,
                              double distance,
                              Fidelity fidelity,
                              const JobContext& job) {
-    MergeBuilder builder(surface, fidelity);
-    for (const double step : thresholds(surface, distance, fidelity))
-        walkByTriplex(surface, builder, step, fidelity, job);
-    return builder.finish();
+    const auto merge_triplex = [&](MergeBuilder& builder, const Met& met, double threshold) {
+        if (std::ranges::all_of(met.sides, [&](double side) { return side < threshold; })) {
+            builder.merge(met.roots, triplexCentre(met.points, fidelity));
+            return;
+        }
+        // d12, d13, d23 in this order: the sides opposite corners 2, 1, 0.
+        for (const std::size_t side : {2u, 1u, 0u}) {
+            if (met.sides[side] > threshold)
+                continue;
+            const std::size_t a = (side + 1) % 3;
+            const std::size_t b = (side + 2) % 3;
+            const std::size_t longer = met.sides[a] > met.sides[b] ? a : b;
+            // A far longer one would leave slivers across the surface.
+            const bool fits = fidelity == Fidelity::Literal || met.sides[longer] < 2.0 * threshold;
+            mergeSide(builder, met.roots, fits ? longer : side);
+            return;
+        }
+    };
+    return walk(surface, distance, fidelity, job, merge_triplex);
 }
 
 } // namespace lodestone

@@ -3,8 +3,6 @@
 #include "simplify/pointcloud/advancing_front.h"
 #include "simplify/pointcloud/point_cloud_source.h"
 
-#include <algorithm>
-
 namespace lodestone {
 
 namespace {
@@ -114,31 +112,13 @@ ParameterInfo retriangulationParameter() {
     return info;
 }
 
-// Usage errors name the parameter.
-Result<void> checkValues(const Algorithm& row, const ParameterValues& values) {
-    for (const auto& entry : values) {
-        const std::string& id = entry.first;
-        const auto same = [&](const ParameterInfo& info) { return info.id == id; };
-        const auto found = std::ranges::find_if(row.parameters, same);
-        if (found == row.parameters.end())
-            return fail(ErrorKind::Usage, std::string(row.id) + ": unknown parameter '" + id + "'");
-        const double maximum = found->kind == ParameterInfo::Kind::Choice
-                                   ? static_cast<double>(found->choices.size() - 1)
-                                   : found->maximum;
-        if (!(entry.second >= found->minimum && entry.second <= maximum))
-            return fail(ErrorKind::Usage,
-                        std::string(row.id) + ": parameter '" + id + "' is out of range");
-    }
-    return {};
-}
-
 template <Algorithm (*Row)(), const CloudMethod& Method>
 Result<LodSourcePtr> prepare(const ScenePtr& scene,
                              const ParameterValues& values,
                              const ScheduleOptions& schedule,
                              const JobContext& job) {
     const Algorithm row = Row();
-    if (const Result<void> checked = checkValues(row, values); !checked)
+    if (const Result<void> checked = checkParameters(row, values); !checked)
         return tl::unexpected(checked.error());
     PointCloudOptions options;
     options.method = &Method;

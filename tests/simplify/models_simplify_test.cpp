@@ -6,30 +6,13 @@
 #include <cmath>
 
 using namespace lodestone;
-using lodestone::tests::modelsFolder;
+using lodestone::tests::modelFiles;
 
 namespace {
 
 class ModelsSimplify : public lodestone::tests::ModelsTest {};
 
 constexpr std::uint64_t kLargest = 250'000; // unique triangles: larger ones take too long here
-
-std::vector<std::filesystem::path> modelFiles() {
-    std::vector<std::filesystem::path> files;
-    for (const char* folder : {"instanced", "textured", "features", "meshes"})
-        for (const auto& entry :
-             std::filesystem::recursive_directory_iterator(modelsFolder() / folder)) {
-            std::string extension = entry.path().extension().string();
-            std::ranges::transform(extension, extension.begin(), [](unsigned char c) {
-                return static_cast<char>(std::tolower(c));
-            });
-            if (entry.is_regular_file() &&
-                std::ranges::find(importExtensions(), extension) != importExtensions().end())
-                files.push_back(entry.path());
-        }
-    std::ranges::sort(files);
-    return files;
-}
 
 void expectSound(const Geometry& geometry) {
     for (const glm::vec3& p : geometry.positions)

@@ -8,7 +8,7 @@
 #include <set>
 
 using namespace lodestone;
-using lodestone::tests::modelsFolder;
+using lodestone::tests::modelFiles;
 
 namespace {
 
@@ -22,23 +22,6 @@ constexpr std::array kMethods{&kVertexTriplexMethod,
                               &kSphericalScanningMethod,
                               &kVertexTriplexDistanceMethod,
                               &kFaceAngleScanningMethod};
-
-std::vector<std::filesystem::path> modelFiles() {
-    std::vector<std::filesystem::path> files;
-    for (const char* folder : {"instanced", "textured", "features", "meshes"})
-        for (const auto& entry :
-             std::filesystem::recursive_directory_iterator(modelsFolder() / folder)) {
-            std::string extension = entry.path().extension().string();
-            std::ranges::transform(extension, extension.begin(), [](unsigned char c) {
-                return static_cast<char>(std::tolower(c));
-            });
-            if (entry.is_regular_file() &&
-                std::ranges::find(importExtensions(), extension) != importExtensions().end())
-                files.push_back(entry.path());
-        }
-    std::ranges::sort(files);
-    return files;
-}
 
 using Corner = std::array<float, 3>;
 
