@@ -54,14 +54,14 @@ struct Met {
     std::array<double, 3> sides;
 };
 
-// Walks over the faces in order, once for each threshold; mergeFace(builder, face, threshold)
+// Walks over the faces in order, once for each threshold; merge_face(builder, face, threshold)
 // merges what it finds near.
 template <class MergeFace>
 Merges walk(const CloudSurface& surface,
             double distance,
             Fidelity fidelity,
             const JobContext& job,
-            const MergeFace& mergeFace) {
+            const MergeFace& merge_face) {
     MergeBuilder builder(surface, fidelity);
     for (const double threshold : thresholds(surface, distance, fidelity))
         for (std::size_t f = 0; f < surface.faces.size() && !stopsAt(f, job); ++f) {
@@ -69,7 +69,7 @@ Merges walk(const CloudSurface& surface,
             if (isCollapsed(roots))
                 continue;
             const Triangle3d points = builder.pointsOf(roots);
-            mergeFace(builder, Met{roots, points, sidesOf(points)}, threshold);
+            merge_face(builder, Met{roots, points, sidesOf(points)}, threshold);
         }
     return builder.finish();
 }
