@@ -1,5 +1,6 @@
 #pragma once
 #include "scene/import.h"
+#include "tests/source_folder.h"
 
 #include <algorithm>
 #include <cctype>
@@ -13,7 +14,7 @@ namespace lodestone::tests {
 
 // The folder of real models beside the source tree; it need not exist.
 inline std::filesystem::path modelsFolder() {
-    return std::filesystem::path(LODESTONE_SOURCE_DIR).parent_path() / "shared" / "models";
+    return sourceFolder().parent_path() / "shared" / "models";
 }
 
 // Every importable file outside bad/, in order. The folder exists.

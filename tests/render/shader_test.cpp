@@ -1,5 +1,6 @@
 #include "render/view.h"
 #include "tests/render/headless_test.h"
+#include "tests/source_folder.h"
 
 #include <cstdlib>
 #include <filesystem>
@@ -22,7 +23,7 @@ protected:
         const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
         folder_ = fs::path(testing::TempDir()) / ("lodestone_shaders_" + std::string(test.name()));
         fs::remove_all(folder_);
-        fs::copy(fs::path(LODESTONE_SOURCE_DIR) / "shaders", folder_);
+        fs::copy(tests::sourceFolder() / "shaders", folder_);
         ASSERT_EQ(setenv("LODESTONE_SHADER_DIR", folder_.c_str(), 1), 0);
     }
 
