@@ -131,10 +131,18 @@ bool ComponentMesh::tryCollapse(std::uint32_t a,
     if (strictness == Strictness::Manifold && !keepsTopology(a, b))
         return false;
 
-    const Quadric merged = sum(translated(metrics_[a].quadric, target - from_a),
-                               translated(metrics_[b].quadric, target - from_b));
+    const auto add_up = [&](const Quadric& of_a, const Quadric& of_b) {
+        return sum(translated(of_a, target - from_a), translated(of_b, target - from_b));
+    };
+    Quadric merged = add_up(metrics_[a].quadric, metrics_[b].quadric);
+    Quadric shape = merged; // the error as a distance leaves attributes out
+    pairWedges(a, b);
+    if (wedge_quadrics_.active()) {
+        merged = sum(merged, mergeWedgeQuadrics(a, b, target));
+        shapes_[a] = shape = add_up(shapes_[a], shapes_[b]);
+    }
     log_.cost.push_back(merged.c);
-    log_.error2.push_back(merged.weight > 0.0f ? merged.c / merged.weight : 0.0f);
+    log_.error2.push_back(shape.weight > 0.0f ? shape.c / shape.weight : 0.0f);
     metrics_[a].quadric = merged;
     metrics_[a].boundary |= metrics_[b].boundary;
     points_[a].position = target;
@@ -147,14 +155,96 @@ bool ComponentMesh::tryCollapse(std::uint32_t a,
     if (face_wedges_.empty())
         mergeSingleWedges(a, b, t);
     else
-        mergeWedges(a, b, t);
+        mergeWedges(a, t);
     return true;
+}
+
+std::uint32_t ComponentMesh::wedgeAt(std::uint32_t face, std::uint32_t vertex) const {
+    if (face_wedges_.empty())
+        return vertex_ids_[vertex];
+    const Corners& corners = faces_[face];
+    return face_wedges_[face][corners[0] == vertex ? 0 : corners[1] == vertex ? 1 : 2];
+}
+
+// Which wedges become one when b goes into a: those that meet in a face on the edge, and with a
+// seam that ends at one of both its two sides.
+void ComponentMesh::pairWedges(std::uint32_t a, std::uint32_t b) {
+    merged_wedges_.clear();
+    if (face_wedges_.empty()) {
+        merged_wedges_.push_back({vertex_ids_[a], vertex_ids_[b], vertex_ids_[b], vertex_ids_[a]});
+        return;
+    }
+    const auto become = [&](std::uint32_t wedge) {
+        for (const MergedWedges& merged : merged_wedges_)
+            if (merged.from == wedge)
+                wedge = merged.into;
+        return wedge;
+    };
+    for (const std::uint32_t f : facesAround(a)) {
+        if (std::ranges::find(faces_[f], b) == faces_[f].end())
+            continue;
+        const std::uint32_t of_a = wedgeAt(f, a);
+        const std::uint32_t of_b = wedgeAt(f, b);
+        const std::uint32_t from = become(of_b);
+        const std::uint32_t into = become(of_a);
+        if (from != into)
+            merged_wedges_.push_back({of_a, of_b, from, into});
+    }
+}
+
+// Moves the predictions of all wedges of both ends to the target and merges those that become one.
+// Result: what the vertex's quadric gains, about the target.
+Quadric ComponentMesh::mergeWedgeQuadrics(std::uint32_t a, std::uint32_t b, Float3 target) {
+    const auto move_all = [&](std::uint32_t v) {
+        std::vector<std::uint32_t>& wedges = scratch_;
+        wedges.clear();
+        for (const std::uint32_t f : facesAround(v))
+            wedges.push_back(wedgeAt(f, v));
+        std::ranges::sort(wedges);
+        wedges.erase(std::unique(wedges.begin(), wedges.end()), wedges.end());
+        for (const std::uint32_t wedge : wedges)
+            wedge_quadrics_.move(wedge, target - points_[v].position);
+    };
+    move_all(a);
+    move_all(b);
+    Quadric gained;
+    for (const MergedWedges& merged : merged_wedges_)
+        gained = sum(gained, wedge_quadrics_.merge(merged.into, merged.from));
+    return gained;
+}
+
+// Sets the values that count to the best ones where the wedge lies now.
+void ComponentMesh::takeBestValues(std::uint32_t wedge) {
+    float* values = values_.data() + std::size_t{wedge} * attributes_.size;
+    const std::vector<CountedValue>& counted = counted_[wedge_primitive_[wedge]];
+    constexpr float kOpposite2 = 1e-6f; // opposite directions cancel: then the blended one stays
+    for (std::size_t i = 0; i < counted.size();) {
+        const auto best = [&](std::size_t at) {
+            return wedge_quadrics_.value(wedge, at) / counted[at].scale;
+        };
+        if (!counted[i].unit) {
+            values[counted[i].offset] = std::clamp(best(i), counted[i].low, counted[i].high);
+            ++i;
+            continue;
+        }
+        const Float3 direction{best(i), best(i + 1), best(i + 2)};
+        const float length2 = dot(direction, direction);
+        if (length2 > kOpposite2) {
+            const Float3 unit = direction * (1.0f / std::sqrt(length2));
+            values[counted[i].offset] = unit.x;
+            values[counted[i].offset + 1] = unit.y;
+            values[counted[i].offset + 2] = unit.z;
+        }
+        i += 3;
+    }
 }
 
 // Every vertex is its own wedge.
 void ComponentMesh::mergeSingleWedges(std::uint32_t a, std::uint32_t b, float t) {
     const std::uint32_t into = vertex_ids_[a];
     blendValues(into, vertex_ids_[b], t);
+    if (wedge_quadrics_.active())
+        takeBestValues(into);
     killWedge(vertex_ids_[b], into);
     if (alive(a))
         addVersion(into, points_[a].position);
@@ -244,28 +334,16 @@ void ComponentMesh::blendValues(std::uint32_t into, std::uint32_t from, float t)
 
 // Wedges that meet in a face on the edge become one; the others of b move to a as they are, so that
 // seams stay seams and no crack opens.
-void ComponentMesh::mergeWedges(std::uint32_t a, std::uint32_t b, float t) {
+void ComponentMesh::mergeWedges(std::uint32_t a, float t) {
     std::vector<std::uint32_t>& touched = scratch_;
     touched.clear();
-    merged_wedges_.clear();
-    for (const std::uint32_t f : dying_) {
-        std::uint32_t wedge_a = kNone;
-        std::uint32_t wedge_b = kNone;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t wedge = face_wedges_[f][k];
+    for (const std::uint32_t f : dying_)
+        for (const std::uint32_t wedge : face_wedges_[f]) {
             --wedge_refs_[wedge];
             touched.push_back(wedge);
-            if (faces_[f][k] == a)
-                wedge_a = wedge;
-            else if (faces_[f][k] == b)
-                wedge_b = wedge;
         }
-        merged_wedges_.push_back({wedge_b, wedge_a});
-    }
-    for (const auto& [from, into] : merged_wedges_) {
-        if (log_.wedge_death[from] != kNone) // merged through the other face on the edge already
-            continue;
-        blendValues(into, from, t);
+    for (const auto& [of_a, of_b, from, into] : merged_wedges_) {
+        blendValues(into, from, from == of_b ? t : 0.5f);
         wedge_refs_[into] += wedge_refs_[from];
         wedge_refs_[from] = 0;
         killWedge(from, into);
@@ -273,11 +351,9 @@ void ComponentMesh::mergeWedges(std::uint32_t a, std::uint32_t b, float t) {
     for (const std::uint32_t f : facesAround(a)) {
         const std::size_t k = faces_[f][0] == a ? 0 : faces_[f][1] == a ? 1 : 2;
         std::uint32_t& wedge = face_wedges_[f][k];
-        for (const auto& [from, into] : merged_wedges_)
-            if (wedge == from && log_.wedge_parent[from] != kNone) {
-                wedge = log_.wedge_parent[from];
-                break;
-            }
+        for (const MergedWedges& merged : merged_wedges_)
+            if (wedge == merged.from)
+                wedge = merged.into;
         touched.push_back(wedge);
     }
     std::ranges::sort(touched);
@@ -297,8 +373,11 @@ void ComponentMesh::mergeWedges(std::uint32_t a, std::uint32_t b, float t) {
             }
             return false;
         }();
-        if (!seen)
-            addVersion(wedge, points_[a].position);
+        if (seen)
+            continue;
+        if (wedge_quadrics_.active())
+            takeBestValues(wedge);
+        addVersion(wedge, points_[a].position);
     }
 }
 

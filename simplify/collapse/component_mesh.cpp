@@ -34,6 +34,9 @@ void ComponentMesh::load(std::size_t component) {
     buildReferences();
     buildWedges();
     buildQuadrics();
+    chooseValues();
+    if (wedge_quadrics_.active())
+        buildWedgeQuadrics();
 }
 
 void ComponentMesh::buildVertices(std::size_t component) {
@@ -176,6 +179,8 @@ std::span<const std::uint32_t> ComponentMesh::compact() {
         moved_to_[v] = vertices;
         points_[vertices] = points_[v];
         metrics_[vertices] = metrics_[v];
+        if (!shapes_.empty())
+            shapes_[vertices] = shapes_[v];
         rings_[vertices] = rings_[v];
         if (!vertex_ids_.empty())
             vertex_ids_[vertices] = vertex_ids_[v];
@@ -215,22 +220,29 @@ void ComponentMesh::buildQuadrics() {
         addBoundaryQuadrics(v);
 }
 
+float ComponentMesh::faceWeight(std::uint32_t face) const {
+    const Corners& corners = faces_[face];
+    const bool out = metrics_[corners[0]].locked || metrics_[corners[1]].locked ||
+                     metrics_[corners[2]].locked; // then its area means nothing
+    const Float3 unit = normals_[face];
+    if (out || !(dot(unit, unit) > 0.0f))
+        return 0.0f;
+    const Float3 normal = faceNormal(corners);
+    const float weight = 0.5f * std::sqrt(dot(normal, normal));
+    return weights_.uniform()
+               ? weight
+               : weight * static_cast<float>(weights_.face({unit.x, unit.y, unit.z}));
+}
+
 void ComponentMesh::addFaceQuadric(std::uint32_t face) {
     const Float3 normal = faceNormal(faces_[face]);
     const float length = std::sqrt(dot(normal, normal));
     normals_[face] = length > 0.0f ? normal * (1.0f / length) : Float3{};
-    const Corners& corners = faces_[face];
-    const bool out = metrics_[corners[0]].locked || metrics_[corners[1]].locked ||
-                     metrics_[corners[2]].locked; // then its area means nothing
-    if (out || !(length > 0.0f))
-        return;
-    const Float3 unit = normals_[face];
-    float weight = 0.5f * length;
-    if (!weights_.uniform())
-        weight *= static_cast<float>(weights_.face({unit.x, unit.y, unit.z}));
     Quadric quadric;
-    addPlane(quadric, unit, 0.0f, weight); // a face passes through its corners: offset 0
-    quadric.weight = weight;
+    quadric.weight = faceWeight(face);
+    if (!(quadric.weight > 0.0f))
+        return;
+    addPlane(quadric, normals_[face], 0.0f, quadric.weight); // through its corners: offset 0
     for (const std::uint32_t v : faces_[face])
         metrics_[v].quadric = sum(metrics_[v].quadric, quadric);
 }
@@ -242,13 +254,8 @@ bool ComponentMesh::seamBetween(std::uint32_t face_a,
                                 std::uint32_t vertex) const {
     if (face_wedges_.empty())
         return false;
-    const auto wedge_at = [&](std::uint32_t face) {
-        const Corners& corners = faces_[face];
-        const std::size_t k = corners[0] == vertex ? 0 : corners[1] == vertex ? 1 : 2;
-        return face_wedges_[face][k];
-    };
-    const std::uint32_t m = wedge_at(face_a);
-    const std::uint32_t n = wedge_at(face_b);
+    const std::uint32_t m = wedgeAt(face_a, vertex);
+    const std::uint32_t n = wedgeAt(face_b, vertex);
     if (m == n)
         return false;
     if (wedge_primitive_[m] != wedge_primitive_[n])
@@ -327,57 +334,6 @@ void ComponentMesh::addBoundaryQuadric(std::uint32_t a, std::uint32_t b, std::ui
              static_cast<float>(plane.normal.y),
              static_cast<float>(plane.normal.z)},
             plane.weight);
-}
-
-namespace {
-
-// One quadric in all lanes, or four different ones.
-QuadricOf<Float4> lanes(const std::array<const Quadric*, 4>& q) {
-    const auto gather = [&](float Quadric::*part) {
-        return Float4{q[0]->*part, q[1]->*part, q[2]->*part, q[3]->*part};
-    };
-    QuadricOf<Float4> r;
-    r.xx = gather(&Quadric::xx);
-    r.yy = gather(&Quadric::yy);
-    r.zz = gather(&Quadric::zz);
-    r.xy = gather(&Quadric::xy);
-    r.xz = gather(&Quadric::xz);
-    r.yz = gather(&Quadric::yz);
-    r.bx = gather(&Quadric::bx);
-    r.by = gather(&Quadric::by);
-    r.bz = gather(&Quadric::bz);
-    r.c = gather(&Quadric::c);
-    return r;
-}
-
-} // namespace
-
-void ComponentMesh::costEdges(std::uint32_t v,
-                              std::span<const std::uint32_t> others,
-                              std::span<float> keys) const {
-    const Quadric* own = &metrics_[v].quadric;
-    const QuadricOf<Float4> first = lanes({own, own, own, own});
-    const Float3 from = points_[v].position;
-    for (std::size_t i = 0; i < others.size(); i += 4) {
-        std::array<std::uint32_t, 4> id; // the last ones repeat where fewer than four are left
-        for (std::size_t lane = 0; lane < 4; ++lane)
-            id[lane] = others[std::min(i + lane, others.size() - 1)];
-        const auto half = [&](float Float3::*axis) {
-            const auto at = [&](std::size_t lane) {
-                return (points_[id[lane]].position.*axis - from.*axis) * 0.5f;
-            };
-            return Float4{at(0), at(1), at(2), at(3)};
-        };
-        const PlacementOf<Float4> placed =
-            placeEdge(first,
-                      lanes({&metrics_[id[0]].quadric,
-                             &metrics_[id[1]].quadric,
-                             &metrics_[id[2]].quadric,
-                             &metrics_[id[3]].quadric}),
-                      Vector3<Float4>{half(&Float3::x), half(&Float3::y), half(&Float3::z)});
-        for (std::size_t lane = 0; lane < std::min<std::size_t>(4, others.size() - i); ++lane)
-            keys[i + lane] = placed.key[lane];
-    }
 }
 
 double ComponentMesh::costScale() const {

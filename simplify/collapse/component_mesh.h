@@ -5,15 +5,25 @@
 #include "simplify/collapse/complex.h"
 #include "simplify/collapse/instance_weights.h"
 #include "simplify/collapse/quadric.h"
+#include "simplify/collapse/wedge_quadric.h"
 
 #include <atomic>
 
 namespace lodestone {
 
+// How much attributes count beside the shape; 0: not at all.
+struct AttributeWeights {
+    double texcoord =
+        1.0;             // 1: a texture that slides by some way counts as a surface off by as much
+    double normal = 1.0; // 1: a radian counts as much as 1 % of the submesh's size
+    double color = 1.0;  // 1: black for white counts as much as 1 % of the submesh's size
+};
+
 struct CollapseOptions {
     double boundary_weight = 1.0;    // x the squared edge length, >= 0
     bool boundary_by_length = false; // paper-literal: weight by length instead of squared length
     double flip_angle_deg = 80.0;    // collapses that turn a face further are rejected, 0..180
+    AttributeWeights attributes;
     // Components with more faces are picked in near-greedy passes down to the second number.
     std::uint32_t near_greedy_above = 24'000;
     std::uint32_t exact_below = 6'000;
@@ -30,11 +40,15 @@ struct WedgeAttributes {
         std::uint32_t components = 0;
         bool unit = false;    // renormalise after interpolation
         bool tangent = false; // xyz unit, w a sign
+        bool texcoord = false;
+        std::array<float, 4> low{}; // what the file's values span
+        std::array<float, 4> high{};
     };
 
     std::vector<std::vector<Slot>>
         slots;            // [primitives][attributes], components 0: not interpolated
     bool carries = false; // some attribute or morph target is taken from the nearest wedge
+    double extent = 0.0;  // diagonal of the submesh, without what lies absurdly far out
 };
 
 // What happened to one component, in local ids; step numbers start at 1.
@@ -85,15 +99,7 @@ public:
         return !metrics_[a].locked && !metrics_[b].locked;
     }
 
-    Placement place(std::uint32_t a, std::uint32_t b) const {
-        return placeEdge(metrics_[a].quadric,
-                         metrics_[b].quadric,
-                         (points_[b].position - points_[a].position) * 0.5f);
-    }
-
-    // Keys of the edges from v to each of others, four at a time. keys: [others]
-    void
-    costEdges(std::uint32_t v, std::span<const std::uint32_t> others, std::span<float> keys) const;
+    Placement place(std::uint32_t a, std::uint32_t b);
 
     // Hints that a vertex will be looked at soon: first its ring's place, later the ring itself.
     void prefetchRing(std::uint32_t v) const {
@@ -110,6 +116,8 @@ public:
             return;
         __builtin_prefetch(&log_.wedge_death[vertex_ids_[v]]);
         __builtin_prefetch(values_.data() + std::size_t{vertex_ids_[v]} * attributes_.size);
+        if (wedge_quadrics_.active())
+            wedge_quadrics_.prefetch(vertex_ids_[v]);
     }
 
     void prefetchFaces(std::uint32_t v) const {
@@ -177,6 +185,11 @@ private:
     void gatherValues();
     void buildQuadrics();
     void addFaceQuadric(std::uint32_t face);
+    float faceWeight(std::uint32_t face) const; // 0: counts for nothing
+    void chooseValues();
+    float texcoordScale(std::uint32_t primitive, const WedgeAttributes::Slot& slot) const;
+    void buildWedgeQuadrics();
+    void scaledValues(std::uint32_t wedge, std::span<float> out) const;
     bool seamBetween(std::uint32_t face_a, std::uint32_t face_b, std::uint32_t vertex) const;
     void addBoundaryQuadrics(std::uint32_t a);
     void addBoundaryQuadric(std::uint32_t a, std::uint32_t b, std::uint32_t face);
@@ -187,6 +200,13 @@ private:
     static constexpr float kBackToBack = -0.98f;
 
     bool folded(std::uint32_t face_a, std::uint32_t face_b) const;
+    // Keys of the spokes' edges, four at a time.
+    template <bool WithAttributes>
+    void costSpokeEdges(std::uint32_t v);
+    void addMerges(const std::array<std::size_t, 4>& spokes,
+                   const Vector3<Float4>& half,
+                   QuadricOf<Float4>& sum) const;
+    void gatherSpokePairs(std::uint32_t v);
     void gatherRings(std::uint32_t a, std::uint32_t b);
     bool keepsTopology(std::uint32_t a, std::uint32_t b);
     Float3 towardsVolume(std::uint32_t a, std::uint32_t b, Float3 at, Float3 half);
@@ -196,8 +216,12 @@ private:
     void mergeFaces(std::uint32_t a, std::uint32_t b);
     void killFace(std::uint32_t face);
     void dropReference(std::uint32_t v, std::uint32_t face);
+    std::uint32_t wedgeAt(std::uint32_t face, std::uint32_t vertex) const;
+    void pairWedges(std::uint32_t a, std::uint32_t b);
+    Quadric mergeWedgeQuadrics(std::uint32_t a, std::uint32_t b, Float3 target);
     void mergeSingleWedges(std::uint32_t a, std::uint32_t b, float t);
-    void mergeWedges(std::uint32_t a, std::uint32_t b, float t);
+    void mergeWedges(std::uint32_t a, float t);
+    void takeBestValues(std::uint32_t wedge);
     void killWedge(std::uint32_t wedge, std::uint32_t parent);
     void releaseWedge(std::uint32_t wedge);
     void addVersion(std::uint32_t wedge, Float3 position);
@@ -233,6 +257,19 @@ private:
     std::vector<std::uint32_t> wedge_carrier_;   // [wedges]
     std::vector<float> values_;                  // [wedges * size]
     std::vector<std::uint32_t> wedge_primitive_; // [wedges]
+    WedgeQuadrics wedge_quadrics_;
+    std::vector<Quadric> shapes_; // [vertices] without attributes; empty: metrics_ have none
+
+    // Which of a wedge's values count, [primitives][WedgeQuadrics::valueCount() at most].
+    struct CountedValue {
+        std::uint32_t offset = 0;
+        float scale = 0.0f; // makes it a length
+        float low = 0.0f;
+        float high = 0.0f;
+        bool unit = false; // the first of three that make a unit vector
+    };
+
+    std::vector<std::vector<CountedValue>> counted_;
     std::uint32_t live_faces_ = 0;
 
     std::vector<Float3> normals_;          // [faces] unit, at the start; 0 where degenerate
@@ -241,12 +278,23 @@ private:
     std::vector<std::uint32_t> local_of_vertex_; // [complex vertices], kNone outside load
     std::vector<std::uint32_t> local_of_wedge_;  // [complex wedges]
     // The collapse at hand.
-    std::vector<RingFace> ring_a_;                            // faces around a without b
-    std::vector<RingFace> ring_b_;                            // faces around b without a
-    std::vector<std::uint32_t> dying_;                        // faces with both
-    std::vector<std::array<std::uint32_t, 2>> merged_wedges_; // {b's, a's} of the current collapse
-    std::vector<std::uint32_t> spokes_;                       // of costSpokes()
+    std::vector<RingFace> ring_a_;     // faces around a without b
+    std::vector<RingFace> ring_b_;     // faces around b without a
+    std::vector<std::uint32_t> dying_; // faces with both
+
+    struct MergedWedges {
+        std::uint32_t of_a = 0; // that meet in a face on the edge
+        std::uint32_t of_b = 0;
+        std::uint32_t from = 0; // what they have become by then
+        std::uint32_t into = 0;
+    };
+
+    std::vector<MergedWedges> merged_wedges_; // of the collapse at hand, in order
+    std::vector<std::uint32_t> spokes_;       // of costSpokes()
     std::vector<float> spoke_keys_;
+    // Wedges that meet along a spoke, {v's, the other's}, on up to two sides; kNone: none.
+    using SpokePairs = std::array<std::array<std::uint32_t, 2>, 2>;
+    std::vector<SpokePairs> spoke_pairs_;
     std::vector<std::uint32_t> scratch_;
     CollapseLog log_;
 };
@@ -264,7 +312,12 @@ ComponentMesh::Spokes ComponentMesh::costSpokes(std::uint32_t v, Accept accept) 
                     spokes_.push_back(other);
             }
     spoke_keys_.resize(spokes_.size());
-    costEdges(v, spokes_, spoke_keys_);
+    if (wedge_quadrics_.active()) {
+        gatherSpokePairs(v);
+        costSpokeEdges<true>(v);
+    } else {
+        costSpokeEdges<false>(v);
+    }
     return {spokes_, spoke_keys_};
 }
 

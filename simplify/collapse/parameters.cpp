@@ -2,6 +2,23 @@
 
 namespace lodestone {
 
+namespace {
+
+ParameterInfo weightParameter(std::string_view id,
+                              std::string_view label,
+                              std::string_view tooltip,
+                              double fallback) {
+    ParameterInfo weight;
+    weight.id = id;
+    weight.label = label;
+    weight.tooltip = tooltip;
+    weight.maximum = 100.0;
+    weight.fallback = fallback;
+    return weight;
+}
+
+} // namespace
+
 std::vector<ParameterInfo> collapseParameters() {
     std::vector<ParameterInfo> parameters(3);
     ParameterInfo& boundary = parameters[0];
@@ -27,6 +44,25 @@ std::vector<ParameterInfo> collapseParameters() {
     flip.minimum = 10.0;
     flip.maximum = 180.0;
     flip.fallback = 80.0;
+    const AttributeWeights weights;
+    parameters.push_back(weightParameter(
+        "uv-weight",
+        "Texture weight",
+        "How firmly textures stay in place. 1: sliding by some way counts as a surface that is off "
+        "by as much. 0: texture coordinates are only carried along.",
+        weights.texcoord));
+    parameters.push_back(weightParameter(
+        "normal-weight",
+        "Shading weight",
+        "How much shading normals count. 1: a radian counts as much as a surface off by 1 % of the "
+        "mesh's size. 0: they are only carried along.",
+        weights.normal));
+    parameters.push_back(weightParameter(
+        "color-weight",
+        "Colour weight",
+        "How much vertex colours count. 1: black for white counts as much as a surface off by 1 % "
+        "of the mesh's size. 0: they are only carried along.",
+        weights.color));
     return parameters;
 }
 
@@ -50,6 +86,10 @@ Result<EdgeCollapseOptions> readCollapseParameters(const Algorithm& algorithm,
     options.collapse.boundary_weight = parameterValue(algorithm, values, "boundary");
     options.collapse.boundary_by_length = parameterValue(algorithm, values, "boundary-rule") > 0.5;
     options.collapse.flip_angle_deg = parameterValue(algorithm, values, "flip-angle");
+    AttributeWeights& weights = options.collapse.attributes;
+    weights.texcoord = parameterValue(algorithm, values, "uv-weight");
+    weights.normal = parameterValue(algorithm, values, "normal-weight");
+    weights.color = parameterValue(algorithm, values, "color-weight");
     options.remove_instances = parameterValue(algorithm, values, "remove-instances") > 0.5;
     return options;
 }

@@ -130,6 +130,21 @@ QuadricOf<T> sum(const QuadricOf<T>& p, const QuadricOf<T>& q) {
             p.weight + q.weight};
 }
 
+// p - q, about the same origin.
+inline Quadric difference(const Quadric& p, const Quadric& q) {
+    return {p.xx - q.xx,
+            p.yy - q.yy,
+            p.zz - q.zz,
+            p.xy - q.xy,
+            p.xz - q.xz,
+            p.yz - q.yz,
+            p.bx - q.bx,
+            p.by - q.by,
+            p.bz - q.bz,
+            p.c - q.c,
+            p.weight - q.weight};
+}
+
 template <class T>
 T evaluate(const QuadricOf<T>& q, const Vector3<T>& x) {
     const Vector3<T> a = apply(q, x);
@@ -158,14 +173,15 @@ QuadricOf<T> sumAtMiddle(const QuadricOf<T>& p, const QuadricOf<T>& q, const Vec
     return s;
 }
 
-// Best place for the merged vertex of an edge. half: from the midpoint to the second end.
+// Best place for the merged vertex of an edge. s: sum about the midpoint; at_ends: the error that
+// the ends already have; half: from the midpoint to the second end.
 // Tikhonov towards the midpoint keeps flat and straight neighbourhoods well-posed; a solution
 // farther out than the edge is long falls back to the best of both ends and the middle.
 // The queue forgives two fifths of the error that the ends already have: none would hold regions
 // back only because they were simplified before (larger mean distance), all of it would let a
 // region sink ever deeper (larger maximum). Short edges have a tiny preference.
 template <class T>
-PlacementOf<T> placeEdge(const QuadricOf<T>& p, const QuadricOf<T>& q, const Vector3<T>& half) {
+PlacementOf<T> placeMerged(const QuadricOf<T>& s, const T& at_ends, const Vector3<T>& half) {
     constexpr float kTikhonov = 1e-5f;
     constexpr float kShortEdge = 1e-7f;
     constexpr float kForgiven = 0.4f;
@@ -173,7 +189,6 @@ PlacementOf<T> placeEdge(const QuadricOf<T>& p, const QuadricOf<T>& q, const Vec
     const T zero{};
     const T one = zero + 1.0f;
 
-    const QuadricOf<T> s = sumAtMiddle(p, q, half);
     const T trace = s.xx + s.yy + s.zz;
     const T length2 = dot(half, half);
     const T lambda = trace * kTikhonov;
@@ -218,9 +233,14 @@ PlacementOf<T> placeEdge(const QuadricOf<T>& p, const QuadricOf<T>& q, const Vec
         }
     offer(near, x, optimal);
     best.cost = select(best.cost > zero, best.cost, zero); // also where it is not a number
-    const T added = best.cost - (p.c + q.c) * kForgiven;
+    const T added = best.cost - at_ends * kForgiven;
     best.key = select(added > zero, added, zero) + trace * length2 * kShortEdge;
     return best;
+}
+
+template <class T>
+PlacementOf<T> placeEdge(const QuadricOf<T>& p, const QuadricOf<T>& q, const Vector3<T>& half) {
+    return placeMerged(sumAtMiddle(p, q, half), p.c + q.c, half);
 }
 
 } // namespace lodestone

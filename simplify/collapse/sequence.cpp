@@ -6,6 +6,7 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numeric>
 #include <tbb/blocked_range.h>
@@ -46,6 +47,7 @@ WedgeAttributes gatherAttributes(const Submesh& submesh, const Complex& complex)
                     slot.components = attribute.components;
                     slot.tangent = attribute.semantic == "TANGENT";
                     slot.unit = slot.tangent || attribute.semantic == "NORMAL";
+                    slot.texcoord = attribute.semantic.starts_with("TEXCOORD_");
                     offset += attribute.components;
                 } else {
                     all.carries = true;
@@ -59,13 +61,23 @@ WedgeAttributes gatherAttributes(const Submesh& submesh, const Complex& complex)
     all.values.resize(complex.wedge_source.size() * all.size);
     for (std::size_t p = 0; p < submesh.primitives.size(); ++p)
         for (std::size_t a = 0; a < all.slots[p].size(); ++a) {
-            const WedgeAttributes::Slot& slot = all.slots[p][a];
+            WedgeAttributes::Slot& slot = all.slots[p][a];
             const Attribute& attribute = submesh.primitives[p].geometry->attributes[a];
+            slot.low.fill(std::numeric_limits<float>::max());
+            slot.high.fill(std::numeric_limits<float>::lowest());
             for (std::size_t w = complex.wedge_begin[p]; w < complex.wedge_begin[p + 1]; ++w)
-                for (std::uint32_t c = 0; c < slot.components; ++c)
-                    all.values[w * all.size + slot.offset + c] =
-                        attributeValue(attribute, complex.wedge_source[w], c);
+                for (std::uint32_t c = 0; c < slot.components; ++c) {
+                    const float value = attributeValue(attribute, complex.wedge_source[w], c);
+                    all.values[w * all.size + slot.offset + c] = value;
+                    slot.low[c] = std::min(slot.low[c], value);
+                    slot.high[c] = std::max(slot.high[c], value);
+                }
         }
+    Bounds bounds;
+    for (const glm::vec3& position : complex.positions)
+        if (complex.bulk.holds(glm::dvec3(position)))
+            bounds.add(glm::dvec3(position));
+    all.extent = bounds.diagonal();
     return all;
 }
 

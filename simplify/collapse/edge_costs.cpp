@@ -1,0 +1,246 @@
+// What collapses would cost: the shape's quadrics and, where attributes count, those of wedges.
+#include "simplify/collapse/component_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lodestone {
+
+// --- attributes
+
+// How much longer a way is on the surface than in a texture's coordinates: the root of the ratio
+// of the areas. 0 where all of the component has one coordinate.
+float ComponentMesh::texcoordScale(std::uint32_t primitive,
+                                   const WedgeAttributes::Slot& slot) const {
+    double area = 0.0;
+    double texture_area = 0.0;
+    for (std::uint32_t f = 0; f < faces_.size(); ++f) {
+        std::array<std::uint32_t, 3> wedges;
+        for (std::size_t k = 0; k < 3; ++k)
+            wedges[k] = wedgeAt(f, faces_[f][k]);
+        if (wedge_primitive_[wedges[0]] != primitive)
+            continue;
+        const auto at = [&](std::size_t corner) {
+            return values_.data() + std::size_t{wedges[corner]} * attributes_.size + slot.offset;
+        };
+        const float ux = at(1)[0] - at(0)[0];
+        const float uy = at(1)[1] - at(0)[1];
+        const float vx = at(2)[0] - at(0)[0];
+        const float vy = at(2)[1] - at(0)[1];
+        const Float3 normal = faceNormal(faces_[f]);
+        area += std::sqrt(static_cast<double>(dot(normal, normal)));
+        texture_area += std::abs(static_cast<double>(ux) * vy - static_cast<double>(uy) * vx);
+    }
+    const double scale = texture_area > 0.0 ? std::sqrt(area / texture_area) : 0.0;
+    return std::isfinite(scale) ? static_cast<float>(scale) : 0.0f;
+}
+
+// Sets which values count and resets the wedges' quadrics.
+void ComponentMesh::chooseValues() {
+    constexpr double kShare = 0.01; // of the size: what a radian or white for black stands for
+    const auto share = static_cast<float>(kShare * attributes_.extent / scale_);
+    const AttributeWeights& weights = options_.attributes;
+    counted_.assign(attributes_.slots.size(), {});
+    std::size_t count = 0;
+    std::vector<bool> present(counted_.size(), false);
+    for (const std::uint32_t primitive : wedge_primitive_)
+        present[primitive] = true;
+    for (std::uint32_t p = 0; p < counted_.size(); ++p) {
+        if (!present[p])
+            continue;
+        for (const WedgeAttributes::Slot& slot : attributes_.slots[p]) {
+            float scale = 0.0f;
+            if (slot.tangent || slot.components == 0)
+                continue;
+            if (slot.unit)
+                scale = share * static_cast<float>(weights.normal);
+            else if (!slot.texcoord)
+                scale = share * static_cast<float>(weights.color);
+            else if (weights.texcoord > 0.0)
+                scale = static_cast<float>(weights.texcoord) * texcoordScale(p, slot);
+            for (std::uint32_t c = 0; scale > 0.0f && c < slot.components; ++c)
+                counted_[p].push_back(
+                    {slot.offset + c, scale, slot.low[c], slot.high[c], slot.unit && c == 0});
+        }
+        count = std::max(count, counted_[p].size());
+    }
+    wedge_quadrics_.reset(log_.wedges.size(), count);
+    shapes_.clear();
+}
+
+// [WedgeQuadrics::valueCount()]; what a primitive has fewer of is 0. Nonsense of the file stays in
+// bounds.
+void ComponentMesh::scaledValues(std::uint32_t wedge, std::span<float> out) const {
+    std::ranges::fill(out, 0.0f);
+    const float* values = values_.data() + std::size_t{wedge} * attributes_.size;
+    const std::vector<CountedValue>& counted = counted_[wedge_primitive_[wedge]];
+    constexpr float kMost = 1e6f; // mesh sizes
+    for (std::size_t i = 0; i < counted.size(); ++i) {
+        const float value = values[counted[i].offset] * counted[i].scale;
+        out[i] = std::isfinite(value) ? std::clamp(value, -kMost, kMost) : 0.0f;
+    }
+}
+
+void ComponentMesh::buildWedgeQuadrics() {
+    shapes_.reserve(metrics_.size());
+    for (const Metric& metric : metrics_)
+        shapes_.push_back(metric.quadric);
+    const std::size_t count = wedge_quadrics_.valueCount();
+    std::vector<float> values(3 * count);
+    WedgeQuadrics::Face face;
+    face.values = values;
+    for (std::uint32_t f = 0; f < faces_.size(); ++f) {
+        face.weight = faceWeight(f);
+        if (!(face.weight > 0.0f))
+            continue;
+        for (std::size_t k = 0; k < 3; ++k) {
+            face.positions[k] = points_[faces_[f][k]].position;
+            face.wedges[k] = wedgeAt(f, faces_[f][k]);
+            scaledValues(face.wedges[k], std::span(values).subspan(k * count, count));
+        }
+        const Quadric gained = wedge_quadrics_.addFace(face);
+        for (const std::uint32_t v : faces_[f])
+            metrics_[v].quadric = sum(metrics_[v].quadric, gained);
+    }
+    std::vector<bool> finished(log_.wedges.size(), false);
+    for (std::uint32_t f = 0; f < faces_.size(); ++f)
+        for (const std::uint32_t v : faces_[f]) {
+            const std::uint32_t wedge = wedgeAt(f, v);
+            if (finished[wedge])
+                continue;
+            finished[wedge] = true;
+            scaledValues(wedge, std::span(values).first(count));
+            const Quadric lost = wedge_quadrics_.finish(wedge, std::span(values).first(count));
+            metrics_[v].quadric = difference(metrics_[v].quadric, lost);
+        }
+}
+
+// --- edges
+
+Placement ComponentMesh::place(std::uint32_t a, std::uint32_t b) {
+    const Quadric& p = metrics_[a].quadric;
+    const Quadric& q = metrics_[b].quadric;
+    const Float3 half = (points_[b].position - points_[a].position) * 0.5f;
+    if (!wedge_quadrics_.active())
+        return placeEdge(p, q, half);
+    Quadric sum = sumAtMiddle(p, q, half);
+    pairWedges(a, b);
+    for (const MergedWedges& merged : merged_wedges_)
+        wedge_quadrics_.addMerge(sum, merged.of_a, merged.of_b, half);
+    return placeMerged(sum, p.c + q.c, half);
+}
+
+// The wedges that meet along each spoke from v.
+void ComponentMesh::gatherSpokePairs(std::uint32_t v) {
+    constexpr std::array<std::uint32_t, 2> kNoPair{kNone, kNone};
+    spoke_pairs_.assign(spokes_.size(), {kNoPair, kNoPair});
+    if (face_wedges_.empty()) {
+        for (std::size_t i = 0; i < spokes_.size(); ++i)
+            spoke_pairs_[i][0] = {vertex_ids_[v], vertex_ids_[spokes_[i]]};
+        return;
+    }
+    for (std::uint32_t i = 0; i < spokes_.size(); ++i)
+        mark_face_[spokes_[i]] = i;
+    const auto accepted = [&](std::uint32_t other) {
+        return other != v && mark_face_[other] < spokes_.size() &&
+               spokes_[mark_face_[other]] == other;
+    };
+    for (const std::uint32_t face : facesAround(v)) {
+        const std::uint32_t own = wedgeAt(face, v);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t other = faces_[face][k];
+            if (!accepted(other))
+                continue;
+            SpokePairs& pairs = spoke_pairs_[mark_face_[other]];
+            const std::array pair{own, face_wedges_[face][k]};
+            if (pairs[0] == kNoPair)
+                pairs[0] = pair;
+            else if (pairs[0] != pair && pairs[1] == kNoPair)
+                pairs[1] = pair;
+        }
+    }
+}
+
+// What merging the wedges along four spokes costs.
+void ComponentMesh::addMerges(const std::array<std::size_t, 4>& spokes,
+                              const Vector3<Float4>& half,
+                              QuadricOf<Float4>& sum) const {
+    for (std::size_t side = 0; side < 2; ++side) {
+        std::array<std::uint32_t, 4> own{};
+        std::array<std::uint32_t, 4> other{};
+        Float4 share{};
+        bool any = false;
+        for (std::size_t lane = 0; lane < 4; ++lane) {
+            const auto& [v_wedge, other_wedge] = spoke_pairs_[spokes[lane]][side];
+            if (v_wedge == kNone)
+                continue;
+            own[lane] = v_wedge;
+            other[lane] = other_wedge;
+            share[lane] = 1.0f;
+            any = true;
+        }
+        if (any)
+            wedge_quadrics_.addMerges(sum, own, other, half, share);
+    }
+}
+
+namespace {
+
+// One quadric in all lanes, or four different ones.
+QuadricOf<Float4> lanes(const std::array<const Quadric*, 4>& q) {
+    const auto gather = [&](float Quadric::*part) {
+        return Float4{q[0]->*part, q[1]->*part, q[2]->*part, q[3]->*part};
+    };
+    QuadricOf<Float4> r;
+    r.xx = gather(&Quadric::xx);
+    r.yy = gather(&Quadric::yy);
+    r.zz = gather(&Quadric::zz);
+    r.xy = gather(&Quadric::xy);
+    r.xz = gather(&Quadric::xz);
+    r.yz = gather(&Quadric::yz);
+    r.bx = gather(&Quadric::bx);
+    r.by = gather(&Quadric::by);
+    r.bz = gather(&Quadric::bz);
+    r.c = gather(&Quadric::c);
+    return r;
+}
+
+} // namespace
+
+template <bool WithAttributes>
+void ComponentMesh::costSpokeEdges(std::uint32_t v) {
+    const Quadric* own = &metrics_[v].quadric;
+    const QuadricOf<Float4> first = lanes({own, own, own, own});
+    const Float3 from = points_[v].position;
+    for (std::size_t i = 0; i < spokes_.size(); i += 4) {
+        std::array<std::size_t, 4> spoke; // the last ones repeat where fewer than four are left
+        std::array<std::uint32_t, 4> id;
+        for (std::size_t lane = 0; lane < 4; ++lane) {
+            spoke[lane] = std::min(i + lane, spokes_.size() - 1);
+            id[lane] = spokes_[spoke[lane]];
+        }
+        const auto half_along = [&](float Float3::*axis) {
+            const auto at = [&](std::size_t lane) {
+                return (points_[id[lane]].position.*axis - from.*axis) * 0.5f;
+            };
+            return Float4{at(0), at(1), at(2), at(3)};
+        };
+        const Vector3<Float4> half{
+            half_along(&Float3::x), half_along(&Float3::y), half_along(&Float3::z)};
+        const QuadricOf<Float4> second = lanes({&metrics_[id[0]].quadric,
+                                                &metrics_[id[1]].quadric,
+                                                &metrics_[id[2]].quadric,
+                                                &metrics_[id[3]].quadric});
+        QuadricOf<Float4> sum = sumAtMiddle(first, second, half);
+        if constexpr (WithAttributes)
+            addMerges(spoke, half, sum);
+        const PlacementOf<Float4> placed = placeMerged(sum, first.c + second.c, half);
+        for (std::size_t lane = 0; lane < std::min<std::size_t>(4, spokes_.size() - i); ++lane)
+            spoke_keys_[i + lane] = placed.key[lane];
+    }
+}
+
+template void ComponentMesh::costSpokeEdges<false>(std::uint32_t v);
+template void ComponentMesh::costSpokeEdges<true>(std::uint32_t v);
+
+} // namespace lodestone
