@@ -1,4 +1,5 @@
 // lodestone_bench: every promised figure, peers beside us, and the micro-benchmarks, as Markdown.
+#include "bench/attribute_table.h"
 #include "bench/figures.h"
 #include "bench/machine.h"
 #include "bench/peers/process.h"
@@ -22,13 +23,16 @@ struct Options {
     std::string given;
     std::string models = LODESTONE_SOURCE_DIR "/../shared/models";
     std::string npm = LODESTONE_BENCH_NPM;
+    std::string sheets;
+    std::vector<std::string> parameters; // of ours in the table of textured models
+    bool attributes = false;
     bool figures = false;
     bool peers = false;
     bool micro = false;
     bool quick = false;
     bool memory_child = false;
 
-    bool everything() const { return !figures && !peers && !micro; }
+    bool everything() const { return !attributes && !figures && !peers && !micro; }
 };
 
 std::string lowered(std::string text) {
@@ -128,6 +132,49 @@ void addPeersPart(Report& report,
     }
 }
 
+// NAME=VALUE of any edge-collapse method. Errors: Usage.
+Result<ParameterValues> parametersOf(const Options& options) {
+    ParameterValues values;
+    const Algorithm& algorithm = *findAlgorithm("ias");
+    for (const std::string& text : options.parameters) {
+        const std::size_t equals = std::min(text.find('='), text.size() - 1);
+        const std::string name = text.substr(0, equals);
+        const Result<double> value = parseParameter(algorithm, name, text.substr(equals + 1));
+        if (!value)
+            return tl::unexpected(value.error());
+        values[name] = *value;
+    }
+    return values;
+}
+
+void addAttributesPart(Report& report, const Options& options, const TitleFilter& wanted) {
+    AttributeBench bench;
+    bench.sheets = options.sheets;
+    bench.picture_px = options.quick ? 128 : 256;
+    Result<ParameterValues> parameters = parametersOf(options);
+    if (!parameters) {
+        std::cerr << "lodestone_bench: " << parameters.error().message << '\n';
+        report.exit_code = exitCode(parameters.error().kind);
+        return;
+    }
+    bench.parameters = std::move(*parameters);
+    // gltfpack's weights, and the same with textures as firm as normals.
+    for (const PeerWeights& weights : {PeerWeights{0.5f, 1.0f, 0.0f}, {0.5f, 1.0f, 0.5f}}) {
+        Result<MeshPeer> peer = webAssemblyPeer(options.npm, weights);
+        if (!peer) {
+            report.summary +=
+                "\n- not measured: textured models: meshoptimizer of npm: " + peer.error().message +
+                "\n";
+            return;
+        }
+        bench.peers.push_back(std::move(*peer));
+    }
+    AttributeTable table;
+    const int code = addAttributeTable(table, bench, options.models, wanted);
+    report.exit_code = std::max(report.exit_code, code);
+    report.tables += table.markdown;
+}
+
 void addMicroPart(Report& report, const Options& options) {
     report.tables +=
         "\n## Hot paths\n\nCPU time of one iteration on one thread, median (min–max) "
@@ -184,6 +231,8 @@ int run(const Options& options) {
         addFiguresPart(report, options, inputs, wanted);
     if (options.peers || options.everything())
         addPeersPart(report, options, inputs, wanted);
+    if (options.attributes || options.everything())
+        addAttributesPart(report, options, wanted);
     if (options.micro || options.everything())
         addMicroPart(report, options);
     return writeReport(options, report, machine);
@@ -201,6 +250,11 @@ int parseAndRun(int argc, char** argv) {
     app.add_option("--models", options.models, "folder of real models")->capture_default_str();
     app.add_option("--npm", options.npm, "node_modules with the peers of npm")
         ->capture_default_str();
+    app.add_option("--sheets", options.sheets, "folder for contact sheets of textured models");
+    app.add_option("--param",
+                   options.parameters,
+                   "NAME=VALUE of ours in the table of textured models; may be repeated");
+    app.add_flag("--attributes", options.attributes, "textured models (default: every part)");
     app.add_flag("--figures", options.figures, "the promised figures (default: every part)");
     app.add_flag("--peers", options.peers, "peers beside us (default: every part)");
     app.add_flag("--micro", options.micro, "the micro-benchmarks (default: every part)");

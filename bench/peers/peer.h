@@ -3,6 +3,7 @@
 // when the bench was built or is found when it runs.
 #include "scene/result.h"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
@@ -13,9 +14,24 @@
 
 namespace lodestone::bench {
 
+// What attributes count for a peer that heeds them: each value's weight.
+struct PeerWeights {
+    static constexpr std::size_t kValues = 8; // normal, colour, texture coordinates
+    float normal = 0.0f;
+    float color = 0.0f;
+    float texcoord = 0.0f;
+
+    std::array<float, kValues> perValue() const {
+        return {normal, normal, normal, color, color, color, texcoord, texcoord};
+    }
+};
+
 // A triangle list as the packages take it.
 struct PeerMesh {
     std::vector<glm::vec3> positions;
+    // [PeerWeights::kValues * vertices], 0 where the mesh has none; empty where vertices are
+    // welded.
+    std::vector<float> attributes;
     std::vector<std::uint32_t> indices; // [3 * triangles]
 
     std::size_t triangleCount() const { return indices.size() / 3; }
@@ -69,7 +85,8 @@ MeshPeer openMeshPeer();
 MeshPeer cgalLindstromTurkPeer();
 MeshPeer cgalGarlandHeckbertPeer();
 MeshPeer vtkQuadricPeer();
-// npm's meshoptimizer, compiled to WebAssembly; runs in a node process of its own.
-Result<MeshPeer> webAssemblyPeer(const std::string& npm);
+// npm's meshoptimizer, compiled to WebAssembly; runs in a node process of its own. All weights 0:
+// its simplify, else its simplifyWithAttributes.
+Result<MeshPeer> webAssemblyPeer(const std::string& npm, const PeerWeights& weights = {});
 
 } // namespace lodestone::bench

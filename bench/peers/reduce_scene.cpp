@@ -89,6 +89,26 @@ PeerMesh weldedMesh(const Geometry& geometry) {
     return welded;
 }
 
+namespace {
+
+std::vector<float> attributeValues(const Geometry& geometry) {
+    std::vector<float> values(PeerWeights::kValues * geometry.positions.size(), 0.0f);
+    const auto fill = [&](std::string_view semantic, std::size_t offset, std::size_t components) {
+        const Attribute* attribute = findAttribute(geometry.attributes, semantic);
+        if (attribute == nullptr || attribute->components < components)
+            return;
+        for (std::size_t v = 0; v < geometry.positions.size(); ++v)
+            for (std::size_t c = 0; c < components; ++c)
+                values[PeerWeights::kValues * v + offset + c] = attributeValue(*attribute, v, c);
+    };
+    fill("NORMAL", 0, 3);
+    fill("COLOR_0", 3, 3);
+    fill("TEXCOORD_0", 6, 2);
+    return values;
+}
+
+} // namespace
+
 PeerInput::PeerInput(const Scene& scene, Welding welding, double ratio)
     : scene_(&scene), welding_(welding) {
     const std::vector<InstanceRange> ranges = instanceRanges(scene);
@@ -100,8 +120,9 @@ PeerInput::PeerInput(const Scene& scene, Welding welding, double ratio)
                 stored.indices.empty())
                 continue;
             Part part{s, p, {}, 0};
-            part.mesh = welding == Welding::Positions ? weldedMesh(stored)
-                                                      : PeerMesh{stored.positions, stored.indices};
+            part.mesh = welding == Welding::Positions
+                            ? weldedMesh(stored)
+                            : PeerMesh{stored.positions, attributeValues(stored), stored.indices};
             part.triangle_target = static_cast<std::size_t>(
                 std::ceil(ratio * static_cast<double>(stored.triangleCount())));
             if (!part.mesh.indices.empty())

@@ -2,7 +2,9 @@
 #include "bench/peers/peer.h"
 #include "bench/peers/process.h"
 
+#include <algorithm>
 #include <charconv>
+#include <fmt/core.h>
 #include <fstream>
 
 namespace lodestone::bench {
@@ -20,15 +22,31 @@ void put(std::ofstream& file, std::size_t word) {
     put(file, std::span(&narrow, 1));
 }
 
-void writeJobs(const std::filesystem::path& path, std::span<const Job> jobs) {
+void put(std::ofstream& file, std::span<const float> numbers) {
+    file.write(reinterpret_cast<const char*>(numbers.data()),
+               static_cast<std::streamsize>(numbers.size_bytes()));
+}
+
+using Weights = std::array<float, PeerWeights::kValues>;
+
+bool anyOf(const Weights& weights) {
+    return std::ranges::any_of(weights, [](float weight) { return weight > 0.0f; });
+}
+
+void writeJobs(const std::filesystem::path& path,
+               std::span<const Job> jobs,
+               const Weights& weights) {
     std::ofstream file(path, std::ios::binary);
     put(file, jobs.size());
+    put(file, weights);
     for (const Job& job : jobs) {
         put(file, job.mesh->positions.size());
         put(file, job.mesh->indices.size());
         put(file, 3 * job.triangle_target);
         file.write(reinterpret_cast<const char*>(job.mesh->positions.data()),
                    static_cast<std::streamsize>(job.mesh->positions.size() * sizeof(glm::vec3)));
+        if (anyOf(weights))
+            put(file, job.mesh->attributes);
         put(file, job.mesh->indices);
     }
 }
@@ -53,11 +71,12 @@ Result<Reduced> readReduced(const std::filesystem::path& path, std::span<const J
     return reduced;
 }
 
-Result<Reduced> simplifyInNode(const std::string& npm, std::span<const Job> jobs) {
+Result<Reduced>
+simplifyInNode(const std::string& npm, std::span<const Job> jobs, const Weights& weights) {
     const ScratchFolder scratch;
     const std::filesystem::path in = scratch.path() / "jobs.bin";
     const std::filesystem::path out = scratch.path() / "reduced.bin";
-    writeJobs(in, jobs);
+    writeJobs(in, jobs, weights);
     const std::string script = std::string(LODESTONE_SOURCE_DIR) + "/bench/peers/simplify.mjs";
     const Result<Ran> ran = runProgram({"node", script, npm, in.string(), out.string()});
     if (!ran)
@@ -71,13 +90,22 @@ Result<Reduced> simplifyInNode(const std::string& npm, std::span<const Job> jobs
 
 } // namespace
 
-Result<MeshPeer> webAssemblyPeer(const std::string& npm) {
+Result<MeshPeer> webAssemblyPeer(const std::string& npm, const PeerWeights& weights) {
     const Result<std::string> version = npmVersion(npm, "meshoptimizer");
     if (!version)
         return tl::unexpected(version.error());
-    return MeshPeer{"meshoptimizer " + *version + " (npm, WebAssembly) simplify, as stored",
-                    Welding::AsStored,
-                    [npm](std::span<const Job> jobs) { return simplifyInNode(npm, jobs); }};
+    const Weights values = weights.perValue();
+    const std::string call =
+        anyOf(values) ? fmt::format("simplifyWithAttributes (normals {:g}, colours {:g}, texture "
+                                    "coordinates {:g})",
+                                    weights.normal,
+                                    weights.color,
+                                    weights.texcoord)
+                      : "simplify";
+    return MeshPeer{
+        "meshoptimizer " + *version + " (npm, WebAssembly) " + call + ", as stored",
+        Welding::AsStored,
+        [npm, values](std::span<const Job> jobs) { return simplifyInNode(npm, jobs, values); }};
 }
 
 } // namespace lodestone::bench
