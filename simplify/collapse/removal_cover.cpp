@@ -1,7 +1,7 @@
 #include "simplify/collapse/removal_cover.h"
 
 #include "simplify/collapse/triangle_grid.h"
-#include "simplify/measure/surface.h"
+#include "simplify/measure/triangle.h"
 
 #include <algorithm>
 #include <cmath>

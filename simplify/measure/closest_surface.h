@@ -7,6 +7,8 @@
 
 namespace lodestone {
 
+struct SurfaceTree;
+
 // Immutable once built; queries from any number of threads at once.
 class ClosestSurface {
 public:
@@ -40,9 +42,19 @@ public:
     public:
         explicit Cursor(const ClosestSurface& surface) : surface_(&surface) {}
 
+        // hit: of this surface, thought to be near the next point.
+        void startAt(const Hit& hit) {
+            last_part_ = hit.part;
+            last_triangle_ = hit.triangle;
+        }
+
         // point and result in the frame of the pieces; not farther out than kFarLimit.
         // Exact to double for instances, to float of the frame for pieces stored on their own.
-        Hit closest(const glm::dvec3& point);
+        Hit closest(const glm::dvec3& point) { return closest(point, 0.0); }
+
+        // As closest, but any triangle will do that is not farther than `enough`: much faster where
+        // there are many. Which one depends on the queries before.
+        Hit closest(const glm::dvec3& point, double enough);
 
     private:
         const ClosestSurface* surface_;
@@ -51,10 +63,9 @@ public:
     };
 
 private:
-    struct Tree;
     struct Search;
-    explicit ClosestSurface(std::unique_ptr<Tree> tree);
-    std::unique_ptr<Tree> tree_;
+    explicit ClosestSurface(std::unique_ptr<SurfaceTree> tree);
+    std::unique_ptr<SurfaceTree> tree_;
 };
 
 } // namespace lodestone

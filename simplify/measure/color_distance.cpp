@@ -1,7 +1,6 @@
 #include "simplify/measure/color_distance.h"
 
 #include "simplify/measure/measured_side.h"
-#include "simplify/measure/sample_blocks.h"
 #include "simplify/measure/surface_color.h"
 
 #include <optional>
@@ -42,18 +41,13 @@ Result<Sums> measureOneSided(const ColoredSide& from,
                              const ColoredSide& to,
                              const DistanceOptions& options,
                              const JobContext& job) {
-    return sumBlocks<Sums>(
-        options.samples, job, [&](std::uint64_t begin, std::uint64_t end, Sums& block) {
-            ClosestSurface::Cursor cursor(to.side.surface);
-            from.side.sampler.visit(
-                {begin, end, options.samples, options.seed}, [&](const SurfaceSample& sample) {
-                    const glm::dvec3 here =
-                        from.colorAt(sample.piece, sample.triangle, sample.weights);
-                    const glm::dvec3 there = to.colorAt(cursor.closest(sample.point), sample.point);
-                    ++block.count;
-                    block.sum += glm::length(here - there);
-                });
-        });
+    const auto add = [&](Sums& sums, const SurfaceSample& sample, const ClosestSurface::Hit& hit) {
+        const glm::dvec3 here = from.colorAt(sample.piece, sample.triangle, sample.weights);
+        const glm::dvec3 there = to.colorAt(hit, sample.point);
+        ++sums.count;
+        sums.sum += glm::length(here - there);
+    };
+    return sumOverSamples<Sums>(from.side, to.side, options, job, add);
 }
 
 } // namespace

@@ -2,7 +2,6 @@
 
 #include "simplify/measure/farthest.h"
 #include "simplify/measure/measured_side.h"
-#include "simplify/measure/sample_blocks.h"
 
 #include <cmath>
 
@@ -44,16 +43,10 @@ Result<OneSided> measureOneSided(const MeasuredSide& from,
                                  const MeasuredSide& to,
                                  const DistanceOptions& options,
                                  const JobContext& job) {
-    const Result<Sums> sums =
-        sumBlocks<Sums>(options.samples,
-                        partOf(job, 0.0, 0.5),
-                        [&](std::uint64_t begin, std::uint64_t end, Sums& block) {
-                            ClosestSurface::Cursor cursor(to.surface);
-                            from.sampler.visit({begin, end, options.samples, options.seed},
-                                               [&](const SurfaceSample& sample) {
-                                                   block.add(cursor.closest(sample.point).distance);
-                                               });
-                        });
+    const auto add = [](Sums& sums, const SurfaceSample&, const ClosestSurface::Hit& hit) {
+        sums.add(hit.distance);
+    };
+    const Result<Sums> sums = sumOverSamples<Sums>(from, to, options, partOf(job, 0.0, 0.5), add);
     if (!sums)
         return tl::unexpected(sums.error());
     const Result<double> farthest =

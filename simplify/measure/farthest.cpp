@@ -12,6 +12,8 @@ namespace {
 constexpr double kTolerance = 0.002;         // of the maximum
 constexpr double kSmallest = 2e-6;           // of the frame: what is nearer is on the surface
 constexpr std::size_t kChunkTriangles = 256; // of one piece, looked at together
+constexpr double kClose = 0.5;               // of the maximum reached: what is nearer cannot be it
+constexpr std::size_t kLeafTriangles = 4;    // of a chunk, measured one by one
 constexpr std::size_t kBatchChunks = 2048;   // what is held at a time
 constexpr double kHope = 0.05;              // share of a bound's excess that is expected to be real
 constexpr std::size_t kMostOpen = 1u << 16; // triangles kept for splitting
@@ -40,23 +42,35 @@ struct Found {
     std::vector<Open> open;
 };
 
-double farthestCorner(const std::array<Corner, 3>& corners, const Triangle& to) {
-    double farthest2 = 0.0;
+// Of the corners from a triangle that is `known` from one of them; past `enough` any number.
+double farthestCorner(const std::array<Corner, 3>& corners,
+                      const Triangle& to,
+                      double known,
+                      double enough) {
+    double farthest2 = known * known;
     for (const Corner& corner : corners)
-        farthest2 = std::max(farthest2, squaredDistance(corner.point, to));
+        if (farthest2 < enough * enough)
+            farthest2 = std::max(farthest2, squaredDistance(corner.point, to));
     return std::sqrt(farthest2);
 }
 
 // No point of the triangle is farther. Distance changes no faster than position, and to a convex
-// set it is convex: largest at a corner.
-double boundOf(const std::array<Corner, 3>& corners, const ClosestSurface& to) {
+// set it is convex: largest at a corner. Not made tighter once it is at most `enough`.
+double boundOf(const std::array<Corner, 3>& corners, const ClosestSurface& to, double enough) {
     double bound = std::numeric_limits<double>::infinity();
     for (const Corner& corner : corners) {
-        double reach = 0.0;
-        for (const Corner& other : corners)
-            reach = std::max(reach, glm::length(other.point - corner.point));
-        bound = std::min(bound, corner.hit.distance + reach);
-        bound = std::min(bound, farthestCorner(corners, to.triangle(corner.hit)));
+        double reach2 = 0.0;
+        for (const Corner& other : corners) {
+            const glm::dvec3 apart = other.point - corner.point;
+            reach2 = std::max(reach2, glm::dot(apart, apart));
+        }
+        bound = std::min(bound, corner.hit.distance + std::sqrt(reach2));
+    }
+    for (const Corner& corner : corners) {
+        if (bound <= enough)
+            break;
+        const Triangle closest = to.triangle(corner.hit);
+        bound = std::min(bound, farthestCorner(corners, closest, corner.hit.distance, bound));
     }
     return bound;
 }
@@ -70,14 +84,15 @@ void consider(const std::array<Corner, 3>& corners,
     for (const Corner& corner : corners)
         reached = std::max(reached, corner.hit.distance);
     found.reached = std::max(found.reached, reached);
-    double bound = boundOf(corners, to);
+    double bound = boundOf(corners, to, threshold(found.reached));
     if (bound <= threshold(found.reached))
         return;
     const glm::dvec3 middle = (corners[0].point + corners[1].point + corners[2].point) / 3.0;
+    cursor.startAt(corners[0].hit);
     const ClosestSurface::Hit hit = cursor.closest(middle);
     reached = std::max(reached, hit.distance);
     found.reached = std::max(found.reached, reached);
-    bound = std::min(bound, farthestCorner(corners, to.triangle(hit)));
+    bound = std::min(bound, farthestCorner(corners, to.triangle(hit), 0.0, bound));
     if (bound > threshold(found.reached))
         found.open.push_back({corners, bound, reached + kHope * (bound - reached)});
 }
@@ -102,76 +117,91 @@ std::vector<Chunk> chunksOf(std::span<const SurfacePiece> pieces) {
     return chunks;
 }
 
-// The chunk's vertices, each once, with what is closest to them.
-class ChunkCorners {
+// Looks for the farthest point of a chunk.
+class ChunkSearch {
 public:
-    ChunkCorners(const SurfacePiece& piece, const Chunk& chunk) : piece_(piece) {
-        const auto& indices = piece.geometry->indices;
-        vertices_.assign(indices.begin() + 3 * std::ptrdiff_t{chunk.begin},
-                         indices.begin() + 3 * std::ptrdiff_t{chunk.end});
-        std::ranges::sort(vertices_);
-        vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
-        for (const std::uint32_t vertex : vertices_) {
-            corners_.push_back({piece.corner(vertex), {}});
-            near_.push_back(!isFar(corners_.back().point));
+    ChunkSearch(const SurfacePiece& piece,
+                const Chunk& chunk,
+                const ClosestSurface& to,
+                Found& found)
+        : to_(to), cursor_(to), found_(found) {
+        const auto first = piece.geometry->indices.begin();
+        const auto begin = first + 3 * std::ptrdiff_t{chunk.begin};
+        const auto end = first + 3 * std::ptrdiff_t{chunk.end};
+        std::vector<std::uint32_t> vertices(begin, end); // each once, rising
+        std::ranges::sort(vertices);
+        vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+        for (const std::uint32_t vertex : vertices)
+            corners_.push_back({{piece.corner(vertex), {}}, false});
+        for (auto triangle = begin; triangle != end; triangle += 3) {
+            std::array<std::uint32_t, 3> corners{};
+            for (std::size_t c = 0; c < 3; ++c)
+                corners[c] = static_cast<std::uint32_t>(
+                    std::ranges::lower_bound(vertices, triangle[static_cast<std::ptrdiff_t>(c)]) -
+                    vertices.begin());
+            // What reaches too far is not part of the surface.
+            if (std::ranges::none_of(
+                    corners, [&](std::uint32_t at) { return isFar(corners_[at].corner.point); }))
+                triangles_.push_back(corners);
         }
     }
 
-    // False if all of it is closer than the limit, which one query often tells.
-    bool mayReach(double limit, ClosestSurface::Cursor& cursor) const {
-        glm::dvec3 low(std::numeric_limits<double>::max());
-        glm::dvec3 high(std::numeric_limits<double>::lowest());
-        for (std::size_t i = 0; i < corners_.size(); ++i)
-            if (near_[i]) {
-                low = glm::min(low, corners_[i].point);
-                high = glm::max(high, corners_[i].point);
-            }
-        if (low.x > high.x)
-            return false;
-        const glm::dvec3 center = 0.5 * (low + high);
-        return cursor.closest(center).distance + glm::length(high - center) > limit;
-    }
-
-    void measure(ClosestSurface::Cursor& cursor) {
-        for (std::size_t i = 0; i < corners_.size(); ++i)
-            if (near_[i])
-                corners_[i].hit = cursor.closest(corners_[i].point);
-    }
-
-    // False if the triangle reaches too far to be part of the surface.
-    bool gather(std::uint32_t triangle, std::array<Corner, 3>& corners) const {
-        for (std::size_t c = 0; c < 3; ++c) {
-            const std::uint32_t vertex = piece_.geometry->indices[3 * std::size_t{triangle} + c];
-            const auto at = static_cast<std::size_t>(std::ranges::lower_bound(vertices_, vertex) -
-                                                     vertices_.begin());
-            if (!near_[at])
-                return false;
-            corners[c] = corners_[at];
-        }
-        return true;
-    }
+    void run() { search(0, triangles_.size()); }
 
 private:
-    const SurfacePiece& piece_;
-    std::vector<std::uint32_t> vertices_; // rising
-    std::vector<Corner> corners_;         // [vertices_]
-    std::vector<bool> near_;              // [vertices_]
-};
+    struct Lazy {
+        Corner corner;
+        bool measured = false;
+    };
 
-void searchChunk(const SurfacePiece& piece,
-                 const Chunk& chunk,
-                 const ClosestSurface& to,
-                 Found& found) {
-    ClosestSurface::Cursor cursor(to);
-    ChunkCorners chunk_corners(piece, chunk);
-    if (!chunk_corners.mayReach(threshold(found.reached), cursor))
-        return;
-    chunk_corners.measure(cursor);
-    std::array<Corner, 3> corners;
-    for (std::uint32_t t = chunk.begin; t < chunk.end; ++t)
-        if (chunk_corners.gather(t, corners))
-            consider(corners, to, cursor, found);
-}
+    // Neighbours in the file lie together more often than not: halves of halves are smaller.
+    void search(std::size_t begin, std::size_t end) {
+        if (!mayReach(begin, end, threshold(found_.reached)))
+            return;
+        if (end - begin > kLeafTriangles) {
+            const std::size_t middle = begin + (end - begin) / 2;
+            search(begin, middle);
+            search(middle, end);
+            return;
+        }
+        for (std::size_t t = begin; t < end; ++t)
+            consider({measured(triangles_[t][0]),
+                      measured(triangles_[t][1]),
+                      measured(triangles_[t][2])},
+                     to_,
+                     cursor_,
+                     found_);
+    }
+
+    // False if all of it is closer than the limit, which one query tells where it is small.
+    bool mayReach(std::size_t begin, std::size_t end, double limit) {
+        if (begin == end)
+            return false;
+        glm::dvec3 low(std::numeric_limits<double>::max());
+        glm::dvec3 high(std::numeric_limits<double>::lowest());
+        for (std::size_t t = begin; t < end; ++t)
+            for (const std::uint32_t at : triangles_[t]) {
+                low = glm::min(low, corners_[at].corner.point);
+                high = glm::max(high, corners_[at].corner.point);
+            }
+        const double radius = 0.5 * glm::length(high - low);
+        return radius >= limit || cursor_.closest(0.5 * (low + high)).distance + radius > limit;
+    }
+
+    const Corner& measured(std::uint32_t at) {
+        Lazy& lazy = corners_[at];
+        if (!lazy.measured)
+            lazy.corner.hit = cursor_.closest(lazy.corner.point, kClose * found_.reached);
+        lazy.measured = true;
+        return lazy.corner;
+    }
+
+    const ClosestSurface& to_;
+    ClosestSurface::Cursor cursor_;
+    Found& found_;
+    std::vector<Lazy> corners_;                           // the chunk's vertices, each once
+    std::vector<std::array<std::uint32_t, 3>> triangles_; // indices into corners_
+};
 
 // Into four alike.
 void split(const Open& open, const ClosestSurface& to, Found& found) {
@@ -179,6 +209,7 @@ void split(const Open& open, const ClosestSurface& to, Found& found) {
     const auto& [a, b, c] = open.corners;
     const auto between = [&](const Corner& from, const Corner& until) {
         const glm::dvec3 point = 0.5 * (from.point + until.point);
+        cursor.startAt(from.hit);
         return Corner{point, cursor.closest(point)};
     };
     const Corner ab = between(a, b);
@@ -201,7 +232,7 @@ public:
             const std::size_t count = std::min(kBatchChunks, chunks.size() - first);
             Result<void> done = searchAll(count, [&](std::size_t i, Found& found) {
                 const Chunk& chunk = chunks[first + i];
-                searchChunk(pieces[chunk.piece], chunk, to_, found);
+                ChunkSearch(pieces[chunk.piece], chunk, to_, found).run();
             });
             if (!done)
                 return done;

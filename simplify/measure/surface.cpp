@@ -1,9 +1,7 @@
 #include "simplify/measure/surface.h"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 namespace lodestone {
 
@@ -66,87 +64,6 @@ double areaOf(const Triangle& triangle) {
     if (isFar(triangle))
         return 0.0;
     return 0.5 * glm::length(glm::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]));
-}
-
-namespace {
-
-// Parameter, 0..1 from a to b, of the segment's point that is closest.
-double closestParameter(const glm::dvec3& point, const glm::dvec3& a, const glm::dvec3& b) {
-    const glm::dvec3 along = b - a;
-    const double length2 = glm::dot(along, along);
-    return length2 > 0.0 ? std::clamp(glm::dot(point - a, along) / length2, 0.0, 1.0) : 0.0;
-}
-
-double squaredDistanceToSegment(const glm::dvec3& point, const glm::dvec3& a, const glm::dvec3& b) {
-    const glm::dvec3 to_point = point - (a + (b - a) * closestParameter(point, a, b));
-    return glm::dot(to_point, to_point);
-}
-
-// Foot point on a triangle's plane: barycentric weights of b and c times the squared double area.
-struct Foot {
-    double v = 0.0;
-    double w = 0.0;
-    double area2 = 0.0;
-    bool inside = false; // of a triangle that has an area
-};
-
-Foot footOf(const glm::dvec3& point, const Triangle& triangle) {
-    const glm::dvec3 ab = triangle[1] - triangle[0];
-    const glm::dvec3 ac = triangle[2] - triangle[0];
-    const glm::dvec3 ap = point - triangle[0];
-    const double ab_ab = glm::dot(ab, ab);
-    const double ab_ac = glm::dot(ab, ac);
-    const double ac_ac = glm::dot(ac, ac);
-    const double ap_ab = glm::dot(ap, ab);
-    const double ap_ac = glm::dot(ap, ac);
-    Foot foot;
-    foot.area2 = ab_ab * ac_ac - ab_ac * ab_ac;
-    foot.v = ac_ac * ap_ab - ab_ac * ap_ac;
-    foot.w = ab_ab * ap_ac - ab_ac * ap_ab;
-    foot.inside = foot.v >= 0.0 && foot.w >= 0.0 && foot.v + foot.w <= foot.area2 &&
-                  foot.area2 > 1e-14 * ab_ab * ac_ac;
-    return foot;
-}
-
-} // namespace
-
-double squaredDistance(const glm::dvec3& point, const Triangle& triangle) {
-    const auto& [a, b, c] = triangle;
-    if (footOf(point, triangle).inside) {
-        const glm::dvec3 normal = glm::cross(b - a, c - a);
-        const double height = glm::dot(normal, point - a);
-        return height * height / glm::dot(normal, normal);
-    }
-    return std::min({squaredDistanceToSegment(point, a, b),
-                     squaredDistanceToSegment(point, b, c),
-                     squaredDistanceToSegment(point, c, a)});
-}
-
-glm::dvec3 closestWeights(const glm::dvec3& point, const Triangle& triangle) {
-    const Foot foot = footOf(point, triangle);
-    if (foot.inside)
-        return {1.0 - (foot.v + foot.w) / foot.area2, foot.v / foot.area2, foot.w / foot.area2};
-    glm::dvec3 weights(0.0);
-    double best2 = std::numeric_limits<double>::infinity();
-    for (int side = 0; side < 3; ++side) {
-        const int next = (side + 1) % 3;
-        const glm::dvec3& a = triangle[static_cast<std::size_t>(side)];
-        const glm::dvec3& b = triangle[static_cast<std::size_t>(next)];
-        const double t = closestParameter(point, a, b);
-        const glm::dvec3 to_point = point - (a + (b - a) * t);
-        if (const double distance2 = glm::dot(to_point, to_point); distance2 < best2) {
-            best2 = distance2;
-            weights = glm::dvec3(0.0);
-            weights[side] = 1.0 - t;
-            weights[next] = t;
-        }
-    }
-    return weights;
-}
-
-glm::dvec3 closestPoint(const glm::dvec3& point, const Triangle& triangle) {
-    const glm::dvec3 weights = closestWeights(point, triangle);
-    return triangle[0] * weights.x + triangle[1] * weights.y + triangle[2] * weights.z;
 }
 
 } // namespace lodestone

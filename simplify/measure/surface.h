@@ -2,8 +2,7 @@
 // A LOD's triangles as an instanced surface in a frame where float precision is spent well. Shared
 // by the sampler and the closest-point structure.
 #include "simplify/measure/distance.h"
-
-#include <array>
+#include "simplify/measure/triangle.h"
 
 namespace lodestone {
 
@@ -19,8 +18,6 @@ Result<SurfaceFrame> frameOf(const Scene& scene);
 // Farther out than this (in diagonals, per axis) float cannot hold the rest of the scene: triangles
 // that reach beyond are neither sampled nor hit.
 constexpr double kFarLimit = 1e6;
-
-using Triangle = std::array<glm::dvec3, 3>;
 
 // One primitive of one kept instance.
 struct SurfacePiece {
@@ -41,13 +38,5 @@ std::vector<SurfacePiece> surfacePieces(const LodView& view, const SurfaceFrame&
 bool isFar(const glm::dvec3& point);     // beyond kFarLimit
 bool isFar(const Triangle& triangle);    // any corner
 double areaOf(const Triangle& triangle); // 0 for far triangles: they are not part of the surface
-
-// Barycentric weights of the triangle's point that is closest to a point; in [0, 1], sum 1. The
-// triangle may have collapsed to a segment or a point.
-glm::dvec3 closestWeights(const glm::dvec3& point, const Triangle& triangle);
-glm::dvec3 closestPoint(const glm::dvec3& point, const Triangle& triangle);
-
-// Squared distance of a point to a triangle, which may have collapsed to a segment or a point.
-double squaredDistance(const glm::dvec3& point, const Triangle& triangle);
 
 } // namespace lodestone

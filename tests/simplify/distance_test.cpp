@@ -122,6 +122,31 @@ void expectBruteForceDistances(const Scene& scene, double tolerance) {
 
 } // namespace
 
+TEST(Distance, WhatIsNearEnoughIsFoundWhereThereIsSuch) {
+    const Scene scene = makeScene(makeBlob(24, 32), difficultTransforms());
+    const Lod lod = fullLod(scene);
+    const Result<SurfaceFrame> frame = frameOf(scene);
+    ASSERT_TRUE(frame);
+    const std::vector<SurfacePiece> pieces = surfacePieces({&scene, &lod}, *frame);
+    const Result<ClosestSurface> surface = ClosestSurface::build(pieces, {});
+    ASSERT_TRUE(surface);
+    ClosestSurface::Cursor exact(*surface);
+    ClosestSurface::Cursor hasty(*surface);
+    constexpr double kEnough = 0.05;
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> inside(-0.6, 0.6);
+    for (int i = 0; i < 400; ++i) {
+        const glm::dvec3 point(inside(random), inside(random), inside(random));
+        const double closest = exact.closest(point).distance;
+        const ClosestSurface::Hit hit = hasty.closest(point, kEnough);
+        if (closest > kEnough)
+            EXPECT_NEAR(hit.distance, closest, 1e-6) << "point " << i;
+        else
+            EXPECT_LE(hit.distance, kEnough) << "point " << i;
+        EXPECT_NEAR(hit.distance, std::sqrt(squaredDistance(point, surface->triangle(hit))), 1e-6);
+    }
+}
+
 TEST(Distance, OfASceneToItselfIsZero) {
     const Scene scene = makeScene(makeBlob(24, 32), difficultTransforms());
     const Result<Distance> distance = measure(scene, scene);

@@ -51,20 +51,19 @@ struct OneSided {
     double max = 0.0; // of the samples
 };
 
-OneSided sampled(const Mesh& from, const Mesh& to) {
-    constexpr unsigned kSamples = 200'000;
+OneSided sampled(const Mesh& from, const Mesh& to, unsigned samples) {
     std::vector<Point> points;
     pmp::sample_triangle_mesh(from,
                               std::back_inserter(points),
                               CGAL::parameters::random_seed(1)
                                   .use_random_uniform_sampling(true)
-                                  .number_of_points_on_faces(kSamples)
+                                  .number_of_points_on_faces(samples)
                                   .do_sample_vertices(false)
                                   .do_sample_edges(false));
     AabbTree tree(faces(to).begin(), faces(to).end(), to);
     tree.build();
-    tree.accelerate_distance_queries();
     OneSided result;
+    tree.accelerate_distance_queries();
     for (const Point& point : points) {
         const double distance2 = tree.squared_distance(point);
         result.mean += std::sqrt(distance2);
@@ -98,32 +97,52 @@ protected:
         return scene.value_or(nullptr);
     }
 
+    // What both measured of two surfaces.
+    struct Measured {
+        Distance ours; // %
+        Mesh mesh_a;
+        Mesh mesh_b;
+        double sampled_max = 0.0; // of CGAL's samples, %
+        double percent = 100.0;   // per unit of the scene
+    };
+
+    // Expects equal means of samples.
+    static Measured expectEqualMeans(const LodView& a, const LodView& b, const char* name) {
+        constexpr unsigned kSamples = 200'000;
+        const Result<Distance> ours = measureDistance(a, b, {}, {});
+        EXPECT_TRUE(ours) << name;
+        Measured measured{ours.value_or(Distance{}), meshOf(a), meshOf(b)};
+        const OneSided there = sampled(measured.mesh_a, measured.mesh_b, kSamples);
+        const OneSided back = sampled(measured.mesh_b, measured.mesh_a, kSamples);
+        measured.percent = 100.0 / robustWorldBounds(*a.scene).diagonal();
+        measured.sampled_max = measured.percent * std::max(there.max, back.max);
+        const double mean = measured.percent * 0.5 * (there.mean + back.mean);
+        const double rms = measured.percent * std::max(there.rms, back.rms);
+        EXPECT_NEAR(measured.ours.mean, mean, kTolerance * mean) << name;
+        EXPECT_NEAR(measured.ours.rms, rms, kTolerance * rms) << name;
+        EXPECT_GE(measured.ours.hausdorff, measured.sampled_max * 0.999) << name;
+        RecordProperty(std::string(name) + ": means",
+                       "mean " + std::to_string(measured.ours.mean) + " / " + std::to_string(mean) +
+                           ", rms " + std::to_string(measured.ours.rms) + " / " +
+                           std::to_string(rms));
+        return measured;
+    }
+
+    static void expectEqualMeasures(const LodView& a, const LodView& b, const char* name) {
+        const Measured measured = expectEqualMeans(a, b, name);
+        // Asked as closely as ours is claimed to be enclosed.
+        const double bound = 0.005 * measured.ours.hausdorff / measured.percent;
+        const double max = measured.percent *
+                           pmp::bounded_error_symmetric_Hausdorff_distance<CGAL::Sequential_tag>(
+                               measured.mesh_a, measured.mesh_b, bound);
+        EXPECT_NEAR(measured.ours.hausdorff, max, kTolerance * max) << name;
+        RecordProperty(std::string(name) + ": maximum",
+                       std::to_string(measured.ours.hausdorff) + " / " + std::to_string(max));
+    }
+
     static void expectEqualMeasures(const Pair& pair, const char* name) {
         const Lod full = fullLod(*pair.original);
-        const LodView a{pair.original.get(), &full};
-        const LodView b{pair.scene.get(), &pair.lod};
-        const Result<Distance> ours = measureDistance(a, b, {}, {});
-        ASSERT_TRUE(ours) << name;
-        const Mesh mesh_a = meshOf(a);
-        const Mesh mesh_b = meshOf(b);
-        const OneSided there = sampled(mesh_a, mesh_b);
-        const OneSided back = sampled(mesh_b, mesh_a);
-        const double percent = 100.0 / robustWorldBounds(*pair.original).diagonal();
-        const double mean = percent * 0.5 * (there.mean + back.mean);
-        const double rms = percent * std::max(there.rms, back.rms);
-        // Asked as closely as ours is claimed to be enclosed.
-        const double bound = 0.005 * ours->hausdorff / percent;
-        const double max =
-            percent * pmp::bounded_error_symmetric_Hausdorff_distance<CGAL::Sequential_tag>(
-                          mesh_a, mesh_b, bound);
-        EXPECT_NEAR(ours->mean, mean, kTolerance * mean) << name;
-        EXPECT_NEAR(ours->rms, rms, kTolerance * rms) << name;
-        EXPECT_NEAR(ours->hausdorff, max, kTolerance * max) << name;
-        EXPECT_GE(ours->hausdorff, percent * std::max(there.max, back.max) * 0.999) << name;
-        RecordProperty(name,
-                       "max " + std::to_string(ours->hausdorff) + " / " + std::to_string(max) +
-                           ", mean " + std::to_string(ours->mean) + " / " + std::to_string(mean) +
-                           ", rms " + std::to_string(ours->rms) + " / " + std::to_string(rms));
+        expectEqualMeasures({pair.original.get(), &full}, {pair.scene.get(), &pair.lod}, name);
     }
 };
 
@@ -146,4 +165,30 @@ TEST_F(IndependentDistance, AgreesOnAnInstancedScene) {
     const Result<ScenePtr> chair = generateScene("chair");
     ASSERT_TRUE(chair);
     expectEqualMeasures(simplified(*chair, "ias", 0.2), "chair at 20 %");
+}
+
+// CGAL encloses the maximum of 79,148 triangles in seconds, that of 1,254,696 not in an hour.
+TEST_F(IndependentDistance, AgreesOnOneInstanceOfEachSubmeshOfTheVillage) {
+    const Result<ScenePtr> village = generateScene("village");
+    ASSERT_TRUE(village);
+    Pair pair = simplified(*village, "ias", 0.2);
+    ASSERT_EQ(pair.scene, pair.original);
+    Lod full = fullLod(*pair.original);
+    for (std::size_t s = 0; s < full.submeshes.size(); ++s) {
+        full.submeshes[s].instance_order = pair.lod.submeshes[s].instance_order;
+        full.submeshes[s].kept_instances = std::min(full.submeshes[s].kept_instances, 1u);
+        pair.lod.submeshes[s].kept_instances = std::min(pair.lod.submeshes[s].kept_instances, 1u);
+    }
+    expectEqualMeasures({pair.original.get(), &full},
+                        {pair.scene.get(), &pair.lod},
+                        "village at 20 %, each submesh once");
+}
+
+TEST_F(IndependentDistance, AgreesOnTheMeansOfTheWholeVillage) {
+    const Result<ScenePtr> village = generateScene("village");
+    ASSERT_TRUE(village);
+    const Pair pair = simplified(*village, "ias", 0.2);
+    const Lod full = fullLod(*pair.original);
+    expectEqualMeans(
+        {pair.original.get(), &full}, {pair.scene.get(), &pair.lod}, "village at 20 %");
 }
