@@ -175,7 +175,7 @@ void addAttributesPart(Report& report, const Options& options, const TitleFilter
     report.tables += table.markdown;
 }
 
-void addMicroPart(Report& report, const Options& options) {
+void addMicroPart(Report& report, [[maybe_unused]] const Options& options) {
     report.tables +=
         "\n## Hot paths\n\nCPU time of one iteration on one thread, median (min–max) "
         "of 5 repetitions in random order, over that of a reference kernel of the same "

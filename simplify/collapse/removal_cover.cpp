@@ -33,18 +33,38 @@ double scaleOf(const glm::dmat4& m) {
                      3.0);
 }
 
-// Calls visit(area, middle) for every triangle.
-template <class Visit>
-void forTriangles(const Primitive& primitive, Visit visit) {
+// Appends the areas of a primitive's triangles; their sum.
+double addAreas(const Primitive& primitive, std::vector<float>& areas) {
     if (primitive.mode != PrimitiveMode::Triangles)
-        return;
+        return 0.0;
     const Geometry& geometry = *primitive.geometry;
+    double sum = 0.0;
     for (std::size_t i = 0; i + 2 < geometry.indices.size(); i += 3) {
-        const glm::dvec3 a(geometry.positions[geometry.indices[i]]);
-        const glm::dvec3 b(geometry.positions[geometry.indices[i + 1]]);
-        const glm::dvec3 c(geometry.positions[geometry.indices[i + 2]]);
-        visit(0.5 * glm::length(glm::cross(b - a, c - a)), (a + b + c) / 3.0);
+        const glm::vec3 a = geometry.positions[geometry.indices[i]];
+        const glm::vec3 b = geometry.positions[geometry.indices[i + 1]];
+        const glm::vec3 c = geometry.positions[geometry.indices[i + 2]];
+        const glm::dvec3 normal(glm::cross(b - a, c - a));
+        areas.push_back(static_cast<float>(0.5 * glm::length(normal)));
+        sum += static_cast<double>(areas.back());
     }
+    return sum;
+}
+
+glm::dvec3 middleOf(const Submesh& submesh, std::size_t triangle) {
+    for (const Primitive& primitive : submesh.primitives) {
+        if (primitive.mode != PrimitiveMode::Triangles)
+            continue;
+        const Geometry& geometry = *primitive.geometry;
+        if (triangle >= geometry.triangleCount()) {
+            triangle -= geometry.triangleCount();
+            continue;
+        }
+        glm::dvec3 sum(0.0);
+        for (std::size_t k = 0; k < 3; ++k)
+            sum += glm::dvec3(geometry.positions[geometry.indices[3 * triangle + k]]);
+        return sum / 3.0;
+    }
+    return glm::dvec3(0.0);
 }
 
 glm::dvec3 colorOf(const Scene& scene, const Primitive& primitive) {
@@ -58,33 +78,34 @@ Sampled sample(const Scene& scene, std::size_t s, InstanceRange range) {
     const Submesh& submesh = scene.submeshes[s];
     Sampled sampled;
     glm::dvec3 color(0.0);
+    std::vector<float> areas;
     for (const Primitive& primitive : submesh.primitives) {
-        const double before = sampled.area;
-        forTriangles(primitive, [&](double area, const glm::dvec3&) { sampled.area += area; });
-        color += colorOf(scene, primitive) * (sampled.area - before);
+        const double area = addAreas(primitive, areas);
+        sampled.area += area;
+        color += colorOf(scene, primitive) * area;
     }
-    if (!(sampled.area > 0.0))
+    if (!(sampled.area > 0.0) || range.size() == 0)
         return sampled;
     sampled.color = color / sampled.area;
-    sampled.radius = 0.5 * localBounds(submesh).diagonal();
-    double passed = 0.0;
-    std::size_t next = 0; // points lie evenly along the triangles' area
-    for (const Primitive& primitive : submesh.primitives)
-        forTriangles(primitive, [&](double area, const glm::dvec3& middle) {
-            passed += area;
-            const auto until = [&] { return (static_cast<double>(next) + 0.5) / kSamples; };
-            while (next < kSamples && passed >= until() * sampled.area)
-                sampled.points[next++] = middle;
-        });
-    for (; next < kSamples; ++next) // rounding
-        sampled.points[next] = sampled.points[0];
     double scale2 = 0.0;
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
         const double scale = scaleOf(scene.instances[i].transform);
         scale2 += scale * scale;
     }
-    if (range.size() > 0)
-        sampled.mean_area = sampled.area * scale2 / range.size();
+    sampled.mean_area = sampled.area * scale2 / range.size();
+    if (range.size() == 1) // nothing to cover
+        return sampled;
+    sampled.radius = 0.5 * localBounds(submesh).diagonal();
+    double passed = 0.0;
+    std::size_t next = 0; // points lie evenly along the triangles' area
+    for (std::size_t t = 0; t < areas.size() && next < kSamples; ++t) {
+        passed += static_cast<double>(areas[t]);
+        while (next < kSamples &&
+               passed * kSamples >= (static_cast<double>(next) + 0.5) * sampled.area)
+            sampled.points[next++] = middleOf(submesh, t);
+    }
+    for (; next < kSamples; ++next) // rounding
+        sampled.points[next] = sampled.points[0];
     return sampled;
 }
 
@@ -97,7 +118,7 @@ std::uint32_t stepWithin(const CollapseSequence& sequence, double limit) {
     return static_cast<std::uint32_t>(beyond - begin);
 }
 
-using Corners = std::array<glm::dvec3, 3>;
+using Corners = std::array<glm::vec3, 3>;
 
 std::vector<Corners>
 trianglesAt(const CollapseSequence& sequence, const Submesh& submesh, std::uint32_t step) {
@@ -109,8 +130,8 @@ trianglesAt(const CollapseSequence& sequence, const Submesh& submesh, std::uint3
             continue;
         Corners& corners = triangles.emplace_back();
         for (std::size_t k = 0; k < 3; ++k)
-            corners[k] = glm::dvec3(
-                wedgePosition(sequence, submesh, stands_for[sequence.complex.faces[f][k]], step));
+            corners[k] =
+                wedgePosition(sequence, submesh, stands_for[sequence.complex.faces[f][k]], step);
     }
     return triangles;
 }
@@ -125,7 +146,7 @@ double stretchOf(const Scene& scene, InstanceRange range) {
 class CoverFinder {
 public:
     CoverFinder(const Scene& scene, std::span<const InstanceRange> ranges)
-        : scene_(scene), ranges_(ranges), sampled_(ranges.size()) {
+        : scene_(scene), ranges_(ranges), sampled_(ranges.size()), larger_(ranges.size(), 0) {
         tbb::parallel_for(std::size_t{0}, ranges.size(), [&](std::size_t s) {
             sampled_[s] = sample(scene, s, ranges[s]);
         });
@@ -142,27 +163,54 @@ private:
         double cost2 = 0.0;
     };
 
+    void addInstances(std::uint32_t submesh,
+                      std::span<const Corners> local,
+                      std::vector<GridTriangle>& all) const;
     Measured measure(std::size_t submesh, const glm::dmat4& transform) const;
 
     const Scene& scene_;
     std::span<const InstanceRange> ranges_;
     std::vector<Sampled> sampled_; // [submeshes]
+    std::vector<std::uint32_t>
+        larger_;             // [submeshes] so many triangles of the grid are of larger ones
+    glm::dvec3 origin_{0.0}; // of the grid's coordinates
     TriangleGrid grid_;
 };
+
+void CoverFinder::addInstances(std::uint32_t submesh,
+                               std::span<const Corners> local,
+                               std::vector<GridTriangle>& all) const {
+    for (std::uint32_t i = ranges_[submesh].begin; i < ranges_[submesh].end; ++i) {
+        const glm::dmat4& transform = scene_.instances[i].transform;
+        const glm::mat3 linear{glm::dmat3(transform)};
+        const glm::vec3 offset(glm::dvec3(transform[3]) - origin_);
+        for (const Corners& corners : local) {
+            GridTriangle& triangle = all.emplace_back();
+            triangle.owner = submesh;
+            for (std::size_t k = 0; k < 3; ++k)
+                triangle.corners[k] = linear * corners[k] + offset;
+        }
+    }
+}
 
 bool CoverFinder::gather(std::span<const CollapseSequence> sequences, double tolerance) {
     double least = std::numeric_limits<double>::infinity(); // area of what may need a cover
     for (std::size_t s = 0; s < ranges_.size(); ++s)
         if (ranges_[s].size() > 1 && sampled_[s].mean_area > 0.0)
             least = std::min(least, sampled_[s].mean_area);
-    std::vector<std::uint32_t> order(ranges_.size());
+    std::vector<std::uint32_t> order(ranges_.size()); // the largest first
     std::iota(order.begin(), order.end(), 0u);
     std::ranges::stable_sort(
         order, std::greater{}, [&](std::uint32_t s) { return sampled_[s].mean_area; });
     std::vector<GridTriangle> all;
+    std::size_t covered = 0; // of order: those that already know what is larger
     for (const std::uint32_t s : order) {
-        if (!(sampled_[s].mean_area >= kLarger * least))
+        const double area = sampled_[s].mean_area;
+        if (!(area >= kLarger * least))
             break;
+        for (; covered < order.size() && area < kLarger * sampled_[order[covered]].mean_area;
+             ++covered)
+            larger_[order[covered]] = static_cast<std::uint32_t>(all.size());
         const double stretch = stretchOf(scene_, ranges_[s]);
         const std::vector<Corners> local =
             trianglesAt(sequences[s],
@@ -170,15 +218,12 @@ bool CoverFinder::gather(std::span<const CollapseSequence> sequences, double tol
                         stretch > 0.0 ? stepWithin(sequences[s], tolerance / stretch) : 0);
         if (all.size() + local.size() * ranges_[s].size() > kMaxTriangles)
             break;
-        for (std::uint32_t i = ranges_[s].begin; i < ranges_[s].end; ++i)
-            for (const Corners& corners : local) {
-                GridTriangle& triangle = all.emplace_back();
-                triangle.owner = s;
-                for (std::size_t k = 0; k < 3; ++k)
-                    triangle.corners[k] =
-                        glm::dvec3(scene_.instances[i].transform * glm::dvec4(corners[k], 1.0));
-            }
+        if (all.empty())
+            origin_ = glm::dvec3(scene_.instances[ranges_[s].begin].transform[3]);
+        addInstances(s, local, all);
     }
+    for (; covered < order.size(); ++covered)
+        larger_[order[covered]] = static_cast<std::uint32_t>(all.size());
     grid_ = TriangleGrid(std::move(all));
     return !grid_.empty();
 }
@@ -188,19 +233,20 @@ CoverFinder::Measured CoverFinder::measure(std::size_t submesh, const glm::dmat4
     const double radius = own.radius * scaleOf(transform);
     Measured sum;
     for (const glm::dvec3& point : own.points) {
-        const glm::dvec3 at(transform * glm::dvec4(point, 1.0));
+        const glm::dvec3 at = glm::dvec3(transform * glm::dvec4(point, 1.0)) - origin_;
         Measured best{radius * radius, radius * radius};
-        grid_.visitNear(at, radius, [&](const GridTriangle& triangle) {
-            const Sampled& other = sampled_[triangle.owner];
-            if (other.mean_area < kLarger * own.mean_area)
-                return best.cost2;
-            const glm::dvec3 contrast = (other.color - own.color) * (0.5 * radius);
-            const double distance2 = squaredDistance(at, triangle.corners);
+        const auto visit = [&](const GridTriangle& triangle) {
+            const glm::dvec3 contrast =
+                (sampled_[triangle.owner].color - own.color) * (0.5 * radius);
+            const auto& [a, b, c] = triangle.corners;
+            const double distance2 =
+                squaredDistance(at, {glm::dvec3(a), glm::dvec3(b), glm::dvec3(c)});
             const double cost2 = distance2 + glm::dot(contrast, contrast) / 3.0;
             if (cost2 < best.cost2)
                 best = {distance2, cost2};
-            return best.cost2;
-        });
+            return static_cast<float>(std::sqrt(best.cost2));
+        };
+        grid_.visitNear(glm::vec3(at), static_cast<float>(radius), larger_[submesh], visit);
         sum.distance2 += best.distance2;
         sum.cost2 += best.cost2;
     }
@@ -209,23 +255,26 @@ CoverFinder::Measured CoverFinder::measure(std::size_t submesh, const glm::dmat4
 
 Cover CoverFinder::coverOf(std::size_t submesh) const {
     const InstanceRange range = ranges_[submesh];
-    if (range.size() < 2 || !(sampled_[submesh].mean_area > 0.0))
+    if (range.size() < 2 || !(sampled_[submesh].mean_area > 0.0) || larger_[submesh] == 0)
         return {};
     const std::uint32_t count = std::min(range.size(), kInstances);
-    Measured sum;
+    const auto transform_of = [&](std::uint32_t k) -> const glm::dmat4& {
+        const auto offset = std::uint64_t{k} * range.size() / count;
+        return scene_.instances[range.begin + static_cast<std::uint32_t>(offset)].transform;
+    };
     double reach2 = 0.0;
     for (std::uint32_t k = 0; k < count; ++k) {
-        const auto offset = std::uint64_t{k} * range.size() / count;
-        const glm::dmat4& transform =
-            scene_.instances[range.begin + static_cast<std::uint32_t>(offset)].transform;
-        const Measured measured = measure(submesh, transform);
-        sum.distance2 += measured.distance2;
-        sum.cost2 += measured.cost2;
-        const double radius = kCovered * sampled_[submesh].radius * scaleOf(transform);
+        const double radius = kCovered * sampled_[submesh].radius * scaleOf(transform_of(k));
         reach2 += radius * radius;
     }
-    if (!(sum.cost2 <= reach2))
-        return {};
+    Measured sum;
+    for (std::uint32_t k = 0; k < count; ++k) {
+        const Measured measured = measure(submesh, transform_of(k));
+        sum.distance2 += measured.distance2;
+        sum.cost2 += measured.cost2;
+        if (!(sum.cost2 <= reach2)) // as most are, and soon
+            return {};
+    }
     return {std::sqrt(sum.distance2 / count), std::sqrt(sum.cost2 / count)};
 }
 
