@@ -47,6 +47,13 @@ struct Algorithm {
                                     const ParameterValues& values,
                                     const ScheduleOptions& schedule,
                                     const JobContext& job) = nullptr;
+    // The same for the scene of another row's source: what does not depend on the parameters is
+    // taken from it, so that a slider of a one-shot method need not weld the scene again. Null
+    // where rows share nothing.
+    Result<LodSourcePtr> (*prepareLike)(const LodSource& other,
+                                        const ParameterValues& values,
+                                        const ScheduleOptions& schedule,
+                                        const JobContext& job) = nullptr;
 };
 
 std::span<const Algorithm> algorithms();

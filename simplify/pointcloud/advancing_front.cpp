@@ -132,6 +132,7 @@ void rebuildFromPoints(CloudSurface& surface) {
     surface.primitive = std::move(primitives);
     surface.two_sided.assign(surface.faces.size(), 0);
     surface.changed.assign(surface.faces.size(), 1);
+    surface.from_points = true;
     forgetUnusedWedges(surface);
 }
 

@@ -31,7 +31,11 @@ struct CloudMethod {
     double maximum = 100.0;   // of the main parameter
     // Passes that follow at the maximum where a target asks for more; 0: one pass reaches it all.
     std::uint32_t further_passes = 0;
-    // Leaves the surface as it is where main is 0. Stops early where asked to.
+    // Where about 40 % and 10 % of an even surface's triangles are left: where a search for a
+    // target begins. Distances in typical edges.
+    std::array<double, 2> usual{0.0, 0.0};
+    // Leaves the surface as it is where main is 0, and the last flips to the caller: they change no
+    // count. Stops early where asked to.
     void (*run)(CloudSurface& surface,
                 const Complex& complex,
                 const CloudSettings& settings,

@@ -1,4 +1,4 @@
-// The methods as the source runs them: passes, retriangulation after each.
+// The methods as the source runs them: passes, retriangulation between them.
 #include "simplify/pointcloud/cloud_method.h"
 #include "simplify/pointcloud/retriangulate.h"
 
@@ -8,14 +8,12 @@ namespace lodestone {
 
 namespace {
 
-void mergeAndFlip(CloudSurface& surface,
-                  const Complex& complex,
-                  const Merges& merges,
-                  const JobContext& job) {
-    if (job.stopRequested())
-        return;
-    applyMerges(surface, merges, complex);
-    flipToDelaunay(surface, job);
+void applyUnlessStopped(CloudSurface& surface,
+                        const Complex& complex,
+                        const Merges& merges,
+                        const JobContext& job) {
+    if (!job.stopRequested())
+        applyMerges(surface, merges, complex);
 }
 
 void runVertexTriplex(CloudSurface& surface,
@@ -23,8 +21,10 @@ void runVertexTriplex(CloudSurface& surface,
                       const CloudSettings& settings,
                       const JobContext& job) {
     for (double left = settings.main; left > 0.0 && !job.stopRequested(); left -= 1.0) {
+        if (left < settings.main)
+            flipToDelaunay(surface, job);
         const Merges merges = vertexTriplex(surface, std::min(left, 1.0), settings.fidelity, job);
-        mergeAndFlip(surface, complex, merges, job);
+        applyUnlessStopped(surface, complex, merges, job);
     }
 }
 
@@ -34,7 +34,8 @@ void runMerging(CloudSurface& surface,
                 const CloudSettings& settings,
                 const JobContext& job) {
     if (settings.main > 0.0)
-        mergeAndFlip(surface, complex, Method(surface, settings.main, settings.fidelity, job), job);
+        applyUnlessStopped(
+            surface, complex, Method(surface, settings.main, settings.fidelity, job), job);
 }
 
 void runFaceAngle(CloudSurface& surface,
@@ -43,7 +44,6 @@ void runFaceAngle(CloudSurface& surface,
                   const JobContext& job) {
     removeFlatVertices(
         surface, {settings.main, settings.area_share, settings.passes, settings.fidelity}, job);
-    flipToDelaunay(surface, job);
 }
 
 void runFaceAngleScanning(CloudSurface& surface,
@@ -56,22 +56,27 @@ void runFaceAngleScanning(CloudSurface& surface,
         surface,
         {settings.angle_deg, settings.area_share, settings.passes, settings.fidelity},
         job);
-    mergeAndFlip(
+    applyUnlessStopped(
         surface, complex, sphericalScanning(surface, settings.main, settings.fidelity, job), job);
 }
 
 } // namespace
 
 const CloudMethod kVertexTriplexMethod{
-    MainParameter::Coverage, "coverage", 8.0, 0, runVertexTriplex};
-const CloudMethod kFaceAngleMethod{MainParameter::AngleDeg, "angle", 180.0, 56, runFaceAngle};
+    MainParameter::Coverage, "coverage", 8.0, 0, {1.0, 2.5}, runVertexTriplex};
+const CloudMethod kFaceAngleMethod{
+    MainParameter::AngleDeg, "angle", 180.0, 56, {15.0, 60.0}, runFaceAngle};
 const CloudMethod kIntervertexDistanceMethod{
-    MainParameter::DistancePct, "distance", 100.0, 0, runMerging<intervertexDistance>};
+    MainParameter::DistancePct, "distance", 100.0, 0, {1.0, 2.2}, runMerging<intervertexDistance>};
 const CloudMethod kSphericalScanningMethod{
-    MainParameter::DistancePct, "radius", 100.0, 0, runMerging<sphericalScanning>};
-const CloudMethod kVertexTriplexDistanceMethod{
-    MainParameter::DistancePct, "distance", 100.0, 0, runMerging<vertexTriplexDistance>};
+    MainParameter::DistancePct, "radius", 100.0, 0, {1.0, 2.2}, runMerging<sphericalScanning>};
+const CloudMethod kVertexTriplexDistanceMethod{MainParameter::DistancePct,
+                                               "distance",
+                                               100.0,
+                                               0,
+                                               {1.0, 2.2},
+                                               runMerging<vertexTriplexDistance>};
 const CloudMethod kFaceAngleScanningMethod{
-    MainParameter::DistancePct, "radius", 100.0, 0, runFaceAngleScanning};
+    MainParameter::DistancePct, "radius", 100.0, 0, {1.0, 2.2}, runFaceAngleScanning};
 
 } // namespace lodestone

@@ -1,5 +1,6 @@
 #include "simplify/pointcloud/cloud_read_out.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace lodestone {
@@ -44,6 +45,26 @@ std::shared_ptr<Geometry> readVertices(const CloudSurface& surface,
 }
 
 } // namespace
+
+std::vector<PrimitiveShape>
+shapeOfSurface(const CloudSurface& surface, const Submesh& submesh, const Complex& complex) {
+    std::vector<PrimitiveShape> shape(submesh.primitives.size());
+    for (std::size_t p = 0; p < shape.size(); ++p) {
+        const Geometry& geometry = *submesh.primitives[p].geometry;
+        const auto first = surface.wedge_vertex.begin();
+        if (submesh.primitives[p].mode == PrimitiveMode::Triangles)
+            shape[p].vertices = static_cast<std::uint32_t>(
+                std::count_if(first + complex.wedge_begin[p],
+                              first + complex.wedge_begin[p + 1],
+                              [](std::uint32_t vertex) { return vertex != kNone; }));
+        else
+            shape[p] = {static_cast<std::uint32_t>(geometry.positions.size()),
+                        static_cast<std::uint32_t>(geometry.indices.size())};
+    }
+    for (const std::uint32_t primitive : surface.primitive)
+        shape[primitive].indices += 3;
+    return shape;
+}
 
 std::vector<GeometryPtr>
 readOutSurface(const CloudSurface& surface, const Submesh& submesh, const Complex& complex) {

@@ -11,4 +11,8 @@ namespace lodestone {
 std::vector<GeometryPtr>
 readOutSurface(const CloudSurface& surface, const Submesh& submesh, const Complex& complex);
 
+// The counts of that, [primitives], without making it. O(faces + wedges).
+std::vector<PrimitiveShape>
+shapeOfSurface(const CloudSurface& surface, const Submesh& submesh, const Complex& complex);
+
 } // namespace lodestone

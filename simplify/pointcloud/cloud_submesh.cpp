@@ -2,6 +2,7 @@
 
 #include "simplify/pointcloud/advancing_front.h"
 #include "simplify/pointcloud/cloud_read_out.h"
+#include "simplify/pointcloud/retriangulate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,6 +39,15 @@ double farthestMove(const CloudSurface& surface, const Complex& complex) {
     return std::max(std::sqrt(farthest2), surface.removal_error);
 }
 
+// Side of the equilateral triangle of mean area.
+double typicalEdge(const CloudSurface& surface) {
+    double doubled_area = 0.0;
+    for (std::size_t f = 0; f < surface.faces.size(); ++f)
+        doubled_area += glm::length(faceVector(surface.points(f)));
+    const auto count = static_cast<double>(std::max<std::size_t>(1, surface.faces.size()));
+    return std::sqrt(2.0 / std::sqrt(3.0) * doubled_area / count);
+}
+
 } // namespace
 
 CloudSubmesh makeCloudSubmesh(const Submesh& submesh,
@@ -55,16 +65,56 @@ CloudSubmesh makeCloudSubmesh(const Submesh& submesh,
     if (made.stretch <= 0.0)
         return made;
     made.complex = buildComplex(submesh, job);
-    if (!job.stopRequested())
-        made.surface = makeSurface(submesh, made.complex);
+    if (job.stopRequested())
+        return made;
+    made.surface = makeSurface(submesh, made.complex);
+    made.edge_length = typicalEdge(made.surface);
     return made;
 }
 
-CloudPiece originalPiece(const CloudSubmesh& from) {
-    CloudPiece piece;
+CloudDraft originalDraft(const CloudSubmesh& from) {
+    CloudDraft draft;
     for (const Primitive& primitive : from.submesh->primitives)
-        piece.primitives.push_back(primitive.geometry);
-    piece.triangles = from.triangles;
+        draft.shape.push_back({static_cast<std::uint32_t>(primitive.geometry->positions.size()),
+                               static_cast<std::uint32_t>(primitive.geometry->indices.size())});
+    draft.triangles = from.triangles;
+    return draft;
+}
+
+CloudDraft draftPiece(const CloudSubmesh& from,
+                      const CloudMethod& method,
+                      const CloudSettings& settings,
+                      const JobContext& job) {
+    auto surface = std::make_shared<CloudSurface>(from.surface);
+    method.run(*surface, from.complex, settings, job);
+    const auto is_changed = [](std::uint8_t flag) { return flag != 0; };
+    if (job.stopRequested() || (surface->faces.size() == from.surface.faces.size() &&
+                                std::ranges::none_of(surface->changed, is_changed)))
+        return originalDraft(from);
+    if (settings.retriangulation == Retriangulation::PointCloud)
+        rebuildFromPoints(*surface);
+    CloudDraft draft;
+    draft.shape = shapeOfSurface(*surface, *from.submesh, from.complex);
+    draft.triangles = static_cast<std::uint32_t>(surface->faces.size());
+    draft.error = farthestMove(*surface, from.complex);
+    draft.surface = std::move(surface);
+    return draft;
+}
+
+CloudPiece finishPiece(const CloudSubmesh& from, const CloudDraft& draft, const JobContext& job) {
+    CloudPiece piece;
+    piece.triangles = draft.triangles;
+    piece.error = draft.error;
+    piece.changed = draft.surface != nullptr;
+    if (!piece.changed) {
+        for (const Primitive& primitive : from.submesh->primitives)
+            piece.primitives.push_back(primitive.geometry);
+        return piece;
+    }
+    CloudSurface surface = *draft.surface;
+    if (!surface.from_points)
+        flipToDelaunay(surface, job);
+    piece.primitives = readOutSurface(surface, *from.submesh, from.complex);
     return piece;
 }
 
@@ -72,20 +122,7 @@ CloudPiece simplifyPiece(const CloudSubmesh& from,
                          const CloudMethod& method,
                          const CloudSettings& settings,
                          const JobContext& job) {
-    CloudSurface surface = from.surface;
-    method.run(surface, from.complex, settings, job);
-    const auto is_changed = [](std::uint8_t flag) { return flag != 0; };
-    if (job.stopRequested() || (surface.faces.size() == from.surface.faces.size() &&
-                                std::ranges::none_of(surface.changed, is_changed)))
-        return originalPiece(from);
-    if (settings.retriangulation == Retriangulation::PointCloud)
-        rebuildFromPoints(surface);
-    CloudPiece piece;
-    piece.primitives = readOutSurface(surface, *from.submesh, from.complex);
-    piece.triangles = static_cast<std::uint32_t>(surface.faces.size());
-    piece.error = farthestMove(surface, from.complex);
-    piece.changed = true;
-    return piece;
+    return finishPiece(from, draftPiece(from, method, settings, job), job);
 }
 
 } // namespace lodestone

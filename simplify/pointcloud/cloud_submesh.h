@@ -11,15 +11,24 @@ struct CloudSubmesh {
     Complex complex;
     CloudSurface surface;        // of complex
     double stretch = 0.0;        // largest scale of an instance; 0: nothing to see
+    double edge_length = 0.0;    // typical one, submesh units; 0: no area
     std::uint32_t triangles = 0; // the file's own
     std::uint32_t instances = 0;
+};
+
+// A submesh simplified as far as its counts and its error say.
+struct CloudDraft {
+    std::shared_ptr<const CloudSurface> surface; // null: the submesh as the file has it
+    std::vector<PrimitiveShape> shape;           // [submesh.primitives]
+    std::uint32_t triangles = 0;
+    double error = 0.0; // estimate: the farthest that a vertex went, submesh units
 };
 
 // A submesh after simplification.
 struct CloudPiece {
     std::vector<GeometryPtr> primitives; // the submesh's own where not changed
     std::uint32_t triangles = 0;
-    double error = 0.0; // estimate: the farthest that a vertex went, submesh units
+    double error = 0.0; // as in the draft
     bool changed = false;
 };
 
@@ -28,9 +37,18 @@ CloudSubmesh makeCloudSubmesh(const Submesh& submesh,
                               const JobContext& job);
 
 // As the file has it.
-CloudPiece originalPiece(const CloudSubmesh& from);
+CloudDraft originalDraft(const CloudSubmesh& from);
 
-// settings.main: distances in the submesh's units. O(faces) nearly.
+// settings.main: distances in the submesh's units. O(faces) nearly. Stops early where asked to.
+CloudDraft draftPiece(const CloudSubmesh& from,
+                      const CloudMethod& method,
+                      const CloudSettings& settings,
+                      const JobContext& job);
+
+// A draft's edges flipped to Delaunay, as geometry: its counts and its error stay. As draftPiece.
+CloudPiece finishPiece(const CloudSubmesh& from, const CloudDraft& draft, const JobContext& job);
+
+// Both.
 CloudPiece simplifyPiece(const CloudSubmesh& from,
                          const CloudMethod& method,
                          const CloudSettings& settings,

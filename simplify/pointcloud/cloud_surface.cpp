@@ -96,18 +96,17 @@ glm::dvec3 faceVector(const Triangle3d& points) {
     return glm::cross(points[1] - points[0], points[2] - points[0]);
 }
 
-Stars buildStars(const CloudSurface& surface) {
+Stars buildStars(std::span<const Triangle> faces, std::size_t vertex_count) {
     Stars stars;
-    stars.begin.assign(surface.positions.size() + 1, 0);
-    for (std::size_t f = 0; f < surface.faces.size(); ++f)
-        for (const std::uint32_t vertex : surface.corners(f))
+    stars.begin.assign(vertex_count + 1, 0);
+    for (const Triangle& face : faces)
+        for (const std::uint32_t vertex : face)
             ++stars.begin[vertex + 1];
     std::partial_sum(stars.begin.begin(), stars.begin.end(), stars.begin.begin());
-    stars.faces.resize(3 * surface.faces.size());
+    stars.corners.resize(3 * faces.size());
     std::vector<std::uint32_t> at(stars.begin.begin(), stars.begin.end() - 1);
-    for (std::uint32_t f = 0; f < surface.faces.size(); ++f)
-        for (const std::uint32_t vertex : surface.corners(f))
-            stars.faces[at[vertex]++] = f;
+    for (std::uint32_t corner = 0; corner < stars.corners.size(); ++corner)
+        stars.corners[at[faces[corner / 3][corner % 3]]++] = corner;
     return stars;
 }
 

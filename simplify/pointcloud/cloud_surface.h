@@ -18,6 +18,7 @@ struct CloudSurface {
     std::vector<std::uint32_t> primitive;  // [faces] of the submesh
     std::vector<std::uint8_t> two_sided;   // [faces] the input has the same face turned over
     std::vector<std::uint8_t> changed;     // [faces] not as in the input
+    bool from_points = false;              // faces rebuilt from the points alone
     double removal_error = 0.0;            // how far a removed vertex lies from what replaced it
 
     Triangle corners(std::size_t face) const {
@@ -59,17 +60,18 @@ void forgetUnusedWedges(CloudSurface& surface);
 // Twice the area of a triangle along its normal.
 glm::dvec3 faceVector(const Triangle3d& points);
 
-// Faces around each vertex, rising.
+// The corners at each vertex, by rising face. A corner is 3 * face + which.
 struct Stars {
-    std::vector<std::uint32_t> begin; // [vertices + 1] into faces
-    std::vector<std::uint32_t> faces; // [3 * faces]
+    std::vector<std::uint32_t> begin;   // [vertices + 1] into corners
+    std::vector<std::uint32_t> corners; // [3 * faces]
 
     std::span<const std::uint32_t> of(std::uint32_t vertex) const {
-        return {faces.data() + begin[vertex], faces.data() + begin[vertex + 1]};
+        return {corners.data() + begin[vertex], corners.data() + begin[vertex + 1]};
     }
 };
 
-Stars buildStars(const CloudSurface& surface);
+// faces: corners at vertices below vertex_count. O(faces + vertices).
+Stars buildStars(std::span<const Triangle> faces, std::size_t vertex_count);
 
 // What a method decided: which vertices become one, and where it lies.
 struct Merges {

@@ -9,10 +9,13 @@ namespace {
 
 constexpr double kFlatCosine = 0.866; // faces that meet within 30 degrees count as one plane
 
-// The two faces of an edge: first = (a, b, c), second = (b, a, d); wedges.
+// The two faces of an edge: first = (c, a, b) from corner `first_at` on, second = (d, b, a) from
+// corner `second_at` on; wedges.
 struct Quad {
     std::uint32_t first = 0;
     std::uint32_t second = 0;
+    std::size_t first_at = 0;
+    std::size_t second_at = 0;
     std::uint32_t a = 0;
     std::uint32_t b = 0;
     std::uint32_t c = 0;
@@ -27,14 +30,7 @@ double cosine(const glm::dvec3& u, const glm::dvec3& v) {
 class Flipper {
 public:
     Flipper(CloudSurface& surface, const JobContext& job)
-        : surface_(surface), job_(job), edges_(3 * surface.faces.size()) {
-        for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
-            const Triangle corners = surface.corners(f);
-            for (std::size_t k = 0; k < 3; ++k)
-                edges_.addFace(corners[k], corners[(k + 1) % 3], f);
-        }
-        region_ = surface.changed;
-    }
+        : surface_(surface), job_(job), edges_(surface), region_(surface.changed) {}
 
     void run() {
         queueAll();
@@ -44,11 +40,11 @@ public:
         for (std::size_t head = 0; head < queue_.size() && rounds < limit; ++head, ++rounds) {
             if (stopsAt(rounds, job_))
                 return;
-            const std::uint32_t slot = queue_[head];
-            queued_[slot] = false;
+            const std::uint32_t edge = queue_[head];
+            queued_[edge] = false;
             Quad quad;
-            if (!edges_.full() && quadOf(slot, quad) && wantsFlip(quad))
-                flip(slot, quad);
+            if (quadOf(edge, quad) && wantsFlip(quad))
+                flip(edge, quad);
         }
     }
 
@@ -57,27 +53,24 @@ private:
 
     const glm::dvec3& point(std::uint32_t wedge) const { return surface_.positions[vertex(wedge)]; }
 
-    void push(std::uint32_t slot) {
-        if (queued_[slot])
+    void push(std::uint32_t edge) {
+        if (queued_[edge])
             return;
-        queued_[slot] = true;
-        queue_.push_back(slot);
+        queued_[edge] = true;
+        queue_.push_back(edge);
     }
 
     void queueAll() {
-        queued_.assign(edges_.slotCount(), false);
-        for (std::uint32_t f = 0; f < surface_.faces.size(); ++f) {
-            if (!region_[f])
-                continue;
-            const Triangle corners = surface_.corners(f);
-            for (std::size_t k = 0; k < 3; ++k)
-                push(edges_.at(corners[k], corners[(k + 1) % 3]));
-        }
+        queued_.assign(edges_.size(), false);
+        for (std::uint32_t f = 0; f < surface_.faces.size(); ++f)
+            if (region_[f])
+                for (const std::uint32_t edge : edges_.sides(f))
+                    push(edge);
     }
 
     // False where an edge is a border, a seam, non-manifold or not consistently oriented.
-    bool quadOf(std::uint32_t slot, Quad& quad) {
-        const CloudEdge& edge = edges_[slot];
+    bool quadOf(std::uint32_t number, Quad& quad) {
+        const CloudEdge& edge = edges_[number];
         if (edge.face_count != 2)
             return false;
         quad.first = edge.faces[0];
@@ -85,22 +78,22 @@ private:
         if (surface_.primitive[quad.first] != surface_.primitive[quad.second] ||
             (!region_[quad.first] && !region_[quad.second]))
             return false;
-        const Triangle& face = surface_.faces[quad.first];
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t v = vertex(face[k]);
-            if (v == edge.low || v == edge.high)
-                continue;
-            quad.c = face[k];
-            quad.a = face[(k + 1) % 3];
-            quad.b = face[(k + 2) % 3];
-        }
-        const Triangle& other = surface_.faces[quad.second];
-        for (std::size_t k = 0; k < 3; ++k)
-            if (other[k] == quad.b && other[(k + 1) % 3] == quad.a) {
-                quad.d = other[(k + 2) % 3];
-                return vertex(quad.c) != vertex(quad.d);
-            }
-        return false;
+        quad.first_at = across(quad.first, number);
+        quad.second_at = across(quad.second, number);
+        const Triangle& first = surface_.faces[quad.first];
+        const Triangle& second = surface_.faces[quad.second];
+        quad.c = first[quad.first_at];
+        quad.a = first[(quad.first_at + 1) % 3];
+        quad.b = first[(quad.first_at + 2) % 3];
+        quad.d = second[quad.second_at];
+        return second[(quad.second_at + 1) % 3] == quad.b &&
+               second[(quad.second_at + 2) % 3] == quad.a && vertex(quad.c) != vertex(quad.d);
+    }
+
+    // The corner of a face that is not on its edge.
+    std::size_t across(std::uint32_t face, std::uint32_t edge) {
+        const Triangle& sides = edges_.sides(face);
+        return sides[1] == edge ? 0 : sides[2] == edge ? 1 : 2;
     }
 
     bool wantsFlip(const Quad& quad) {
@@ -122,36 +115,37 @@ private:
         if (cosine(before1, before2) < kFlatCosine || cosine(after1, after2) < kFlatCosine ||
             glm::dot(after1, mean) <= 0.0 || glm::dot(after2, mean) <= 0.0)
             return false;
-        return edges_[edges_.at(vertex(quad.c), vertex(quad.d))].face_count == 0;
+        return !edges_.contains(vertex(quad.c), vertex(quad.d));
     }
 
-    void flip(std::uint32_t slot, const Quad& quad) {
+    void flip(std::uint32_t edge, const Quad& quad) {
+        const Triangle first = edges_.sides(quad.first);
+        const Triangle second = edges_.sides(quad.second);
+        const std::uint32_t ca = first[quad.first_at];
+        const std::uint32_t bc = first[(quad.first_at + 2) % 3];
+        const std::uint32_t db = second[quad.second_at];
+        const std::uint32_t ad = second[(quad.second_at + 2) % 3];
         surface_.faces[quad.first] = {quad.a, quad.d, quad.c};
         surface_.faces[quad.second] = {quad.d, quad.b, quad.c};
+        edges_.sides(quad.first) = {ad, edge, ca};
+        edges_.sides(quad.second) = {db, bc, edge};
         for (const std::uint32_t face : {quad.first, quad.second}) {
             surface_.changed[face] = 1;
             surface_.two_sided[face] = 0;
         }
-        edges_[slot].face_count = 0;
-        CloudEdge& made = edges_[edges_.at(vertex(quad.c), vertex(quad.d))];
-        made.faces = {quad.first, quad.second};
-        made.face_count = 2;
-        const std::uint32_t ad = edges_.at(vertex(quad.a), vertex(quad.d));
-        const std::uint32_t bc = edges_.at(vertex(quad.b), vertex(quad.c));
+        edges_.move(edge, vertex(quad.c), vertex(quad.d));
         edges_[ad].replace(quad.second, quad.first);
         edges_[bc].replace(quad.first, quad.second);
-        push(ad);
-        push(bc);
-        push(edges_.at(vertex(quad.a), vertex(quad.c)));
-        push(edges_.at(vertex(quad.b), vertex(quad.d)));
+        for (const std::uint32_t around : {ad, bc, ca, db})
+            push(around);
     }
 
     CloudSurface& surface_;
     const JobContext& job_;
     EdgeTable edges_;
     std::vector<std::uint8_t> region_; // [faces] what may be flipped
-    std::vector<bool> queued_;         // [slots]
-    std::vector<std::uint32_t> queue_; // slots
+    std::vector<bool> queued_;         // [edges]
+    std::vector<std::uint32_t> queue_; // edges
 };
 
 } // namespace

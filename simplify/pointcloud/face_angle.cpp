@@ -3,9 +3,7 @@
 #include "simplify/pointcloud/vertex_fan.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
 #include <limits>
 
 namespace lodestone {
@@ -19,50 +17,86 @@ double cosineDeg(double degrees) {
     return std::cos(glm::radians(degrees));
 }
 
-// A set of edges, sized once.
-class EdgeSet {
+// The edges that a pass has made, by vertex.
+class NewEdges {
 public:
-    explicit EdgeSet(std::size_t capacity)
-        : slots_(std::bit_ceil(std::max<std::size_t>(16, 2 * capacity)), kFree) {}
+    explicit NewEdges(std::size_t vertex_count) : first_(vertex_count, kNone) {}
 
-    bool contains(std::uint32_t a, std::uint32_t b) const { return slots_[slotOf(a, b)] != kFree; }
+    bool contains(std::uint32_t a, std::uint32_t b) const {
+        for (std::uint32_t at = first_[a]; at != kNone; at = ends_[at].next)
+            if (ends_[at].vertex == b)
+                return true;
+        return false;
+    }
 
-    void insert(std::uint32_t a, std::uint32_t b) { slots_[slotOf(a, b)] = keyOf(a, b); }
+    void insert(std::uint32_t a, std::uint32_t b) {
+        append(a, b);
+        append(b, a);
+    }
 
 private:
-    static constexpr std::uint64_t kFree = ~std::uint64_t{0};
+    struct End {
+        std::uint32_t vertex = 0;
+        std::uint32_t next = kNone;
+    };
 
-    static std::uint64_t keyOf(std::uint32_t a, std::uint32_t b) {
-        return (std::uint64_t{std::min(a, b)} << 32) | std::max(a, b);
+    void append(std::uint32_t at, std::uint32_t other) {
+        ends_.push_back({other, first_[at]});
+        first_[at] = static_cast<std::uint32_t>(ends_.size() - 1);
     }
 
-    std::size_t slotOf(std::uint32_t a, std::uint32_t b) const {
-        const std::uint64_t key = keyOf(a, b);
-        std::uint64_t slot = key * 0x9E3779B97F4A7C15ull;
-        slot ^= slot >> 32;
-        slot &= slots_.size() - 1;
-        while (slots_[slot] != kFree && slots_[slot] != key)
-            slot = (slot + 1) & (slots_.size() - 1);
-        return slot;
-    }
-
-    std::vector<std::uint64_t> slots_;
+    std::vector<std::uint32_t> first_; // [vertices] into ends_
+    std::vector<End> ends_;
 };
 
 // The faces that close a hole.
 struct Patch {
     std::vector<Triangle> faces;
     std::vector<std::uint32_t> primitives;
-    double error = 0.0; // distance of the removed vertex
+    std::vector<std::array<std::uint32_t, 2>> edges; // vertices; that no face had before
+    double error = 0.0;                              // distance of the removed vertex
+
+    void clear() {
+        edges.clear();
+        faces.clear();
+        primitives.clear();
+        error = 0.0;
+    }
 };
+
+std::vector<Triangle> cornersOf(const CloudSurface& surface) {
+    std::vector<Triangle> corners(surface.faces.size());
+    for (std::size_t f = 0; f < corners.size(); ++f)
+        corners[f] = surface.corners(f);
+    return corners;
+}
+
+// Whether a fan unrolls in the plane: every face counter-clockwise, once around at most. rim: its
+// spokes as seen from the centre, of a closed one the first again.
+bool unrolls(std::span<const glm::dvec2> rim) {
+    const auto side = [](const glm::dvec2& a, const glm::dvec2& b) {
+        return a.x * b.y - a.y * b.x;
+    };
+    bool behind = false; // past half a turn
+    for (std::size_t i = 0; i + 1 < rim.size(); ++i) {
+        if (!(side(rim[i], rim[i + 1]) > 0.0))
+            return false;
+        const double turned = side(rim[0], rim[i + 1]);
+        if (behind && (turned > 0.0 || (turned == 0.0 && i + 2 < rim.size())))
+            return false;
+        behind = behind || turned < 0.0;
+    }
+    return true;
+}
 
 class FaceAnglePass {
 public:
     FaceAnglePass(CloudSurface& surface, const FaceAngleOptions& options)
-        : surface_(surface), options_(options), stars_(buildStars(surface)),
+        : surface_(surface), options_(options), corners_(cornersOf(surface)),
+          stars_(buildStars(corners_, surface.positions.size())),
           cosine_(cosineDeg(options.angle_deg)), normals_(surface.faces.size()),
           areas_(surface.faces.size()), kept_(surface.positions.size(), false),
-          gone_(surface.faces.size(), false), new_edges_(3 * surface.faces.size()) {
+          gone_(surface.faces.size(), false), new_edges_(surface.positions.size()) {
         double area = 0.0;
         for (std::size_t f = 0; f < surface.faces.size(); ++f) {
             normals_[f] = faceVector(surface.points(f));
@@ -89,8 +123,17 @@ private:
     bool closeHole(std::uint32_t vertex, Patch& patch);
     bool closePart(std::uint32_t vertex, std::size_t begin, std::size_t end, Patch& patch);
     bool isStraight(std::uint32_t vertex) const;
-    bool projects(const glm::dvec3& centre, const PlaneAxes& axes) const;
-    bool isNew(std::span<const Triangle> faces, std::size_t ring_size) const;
+    bool isNew(const Patch& patch) const;
+
+    std::uint32_t rimVertex(std::size_t spoke) const {
+        const std::size_t count = fan_.spokes.size();
+        return fan_.spokes[spoke < count ? spoke : spoke - count].vertex;
+    }
+
+    const glm::dvec3& rimPoint(std::size_t spoke) const {
+        return surface_.positions[rimVertex(spoke)];
+    }
+
     bool hasEdge(std::uint32_t a, std::uint32_t b) const;
     std::uint32_t cornerWedge(std::size_t spoke,
                               const glm::dvec3& normal,
@@ -100,15 +143,19 @@ private:
 
     CloudSurface& surface_;
     const FaceAngleOptions& options_;
-    Stars stars_; // as the pass began
+    std::vector<Triangle> corners_; // [faces] vertices, as the pass began
+    Stars stars_;                   // as the pass began
     double cosine_;
     double largest_area_ = 0.0;
     std::vector<glm::dvec3> normals_; // [faces] unit
     std::vector<double> areas_;       // [faces] doubled
     std::vector<bool> kept_;          // [vertices] beside a removed one
     std::vector<bool> gone_;          // [faces]
-    EdgeSet new_edges_;
-    VertexFan fan_;
+    NewEdges new_edges_;
+    VertexFan fan_; // of the vertex that is looked at
+    FlatPolygon polygon_;
+    std::vector<glm::dvec2> rim_;
+    std::vector<Triangle> triangles_;
 };
 
 bool FaceAnglePass::isFlat(std::uint32_t vertex) const {
@@ -118,10 +165,13 @@ bool FaceAnglePass::isFlat(std::uint32_t vertex) const {
         return false;
     double area = 0.0;
     for (std::size_t i = 0; i < star.size(); ++i) {
-        area += areas_[star[i]];
+        const std::uint32_t face = star[i] / 3;
+        area += areas_[face];
+        if (!(areas_[face] > 0.0))
+            continue;
         for (std::size_t k = 0; k < i; ++k)
-            if (glm::dot(normals_[star[i]], normals_[star[k]]) <= cosine_ &&
-                areas_[star[i]] > 0.0 && areas_[star[k]] > 0.0)
+            if (areas_[star[k] / 3] > 0.0 &&
+                glm::dot(normals_[face], normals_[star[k] / 3]) <= cosine_)
                 return false;
     }
     return area <= largest_area_;
@@ -141,34 +191,13 @@ bool FaceAnglePass::isStraight(std::uint32_t vertex) const {
     return lengths > 0.0 && -glm::dot(in, out) >= limit * lengths;
 }
 
-// Whether the fan unrolls in the plane: every face counter-clockwise, once around at most.
-bool FaceAnglePass::projects(const glm::dvec3& centre, const PlaneAxes& axes) const {
-    const auto flat = [&](std::size_t spoke) {
-        const glm::dvec3 away =
-            surface_.positions[fan_.spokes[spoke % fan_.spokes.size()].vertex] - centre;
-        return glm::dvec2(glm::dot(away, axes.u), glm::dot(away, axes.v));
-    };
-    double turn = 0.0;
-    for (std::size_t i = 0; i < fan_.faces.size(); ++i) {
-        const glm::dvec2 a = flat(i);
-        const glm::dvec2 b = flat(i + 1);
-        const double sine = a.x * b.y - a.y * b.x;
-        if (!(sine > 0.0))
-            return false;
-        turn += std::atan2(sine, glm::dot(a, b));
-    }
-    return turn < glm::two_pi<double>() + 1e-6;
-}
-
+// Now: an edge between two vertices beside a hole is never lost.
 bool FaceAnglePass::hasEdge(std::uint32_t a, std::uint32_t b) const {
-    if (new_edges_.contains(a, b))
-        return true;
-    return std::ranges::any_of(stars_.of(a), [&](std::uint32_t f) {
-        if (gone_[f])
-            return false;
-        const Triangle corners = surface_.corners(f);
-        return corners[0] == b || corners[1] == b || corners[2] == b;
-    });
+    return new_edges_.contains(a, b) ||
+           std::ranges::any_of(stars_.of(a), [&](std::uint32_t corner) {
+               const Triangle& face = corners_[corner / 3];
+               return face[(corner + 1) % 3] == b || face[(corner + 2) % 3] == b;
+           });
 }
 
 // Of the two wedges beside a spoke that belong to the part: that of the face turned like the new.
@@ -202,23 +231,29 @@ bool FaceAnglePass::closePart(std::uint32_t vertex,
         return false;
     normal = glm::normalize(normal);
     const PlaneAxes axes = axesAcross(normal);
-    FlatPolygon polygon;
-    std::vector<std::size_t> spokes;
-    for (std::size_t i = begin; i < end + (whole ? 0 : 1); ++i) {
-        spokes.push_back(i);
-        const glm::dvec3 away =
-            surface_.positions[fan_.spokes[i % fan_.spokes.size()].vertex] - centre;
-        polygon.points.emplace_back(glm::dot(away, axes.u), glm::dot(away, axes.v));
+    rim_.clear();
+    for (std::size_t i = 0; i <= count; ++i) {
+        const glm::dvec3 away = rimPoint(i) - centre;
+        rim_.emplace_back(glm::dot(away, axes.u), glm::dot(away, axes.v));
     }
-    std::vector<Triangle> triangles;
-    if (!projects(centre, axes) || spokes.size() < 3 || !triangulate(polygon, triangles))
+    polygon_.points.clear();
+    for (std::size_t i = begin; i < end + (whole ? 0 : 1); ++i)
+        polygon_.points.push_back(rim_[i > count ? i - count : i]);
+    triangles_.clear();
+    if (polygon_.points.size() < 3 || !unrolls(rim_) || !triangulate(polygon_, triangles_))
         return false;
+    const auto add_edge = [&](std::size_t a, std::size_t b) {
+        patch.edges.push_back({rimVertex(begin + a), rimVertex(begin + b)});
+    };
+    if (!whole)
+        add_edge(0, polygon_.points.size() - 1);
+    for (std::size_t i = 0; i + 1 < triangles_.size(); ++i)
+        add_edge(triangles_[i][2], triangles_[i][0]);
     double nearest = std::numeric_limits<double>::max();
-    for (const Triangle& triangle : triangles) {
-        Triangle3d points;
-        for (std::size_t k = 0; k < 3; ++k)
-            points[k] =
-                surface_.positions[fan_.spokes[spokes[triangle[k]] % fan_.spokes.size()].vertex];
+    for (const Triangle& triangle : triangles_) {
+        const Triangle3d points{rimPoint(begin + triangle[0]),
+                                rimPoint(begin + triangle[1]),
+                                rimPoint(begin + triangle[2])};
         const glm::dvec3 face = faceVector(points);
         const double length = glm::length(face);
         if (!(length > 0.0) || glm::dot(face, normal) < kLeastCosine * length)
@@ -226,7 +261,7 @@ bool FaceAnglePass::closePart(std::uint32_t vertex,
         nearest = std::min(nearest, std::abs(glm::dot(face, centre - points[0])) / length);
         Triangle wedges;
         for (std::size_t k = 0; k < 3; ++k)
-            wedges[k] = cornerWedge(spokes[triangle[k]], face, begin, end);
+            wedges[k] = cornerWedge(begin + triangle[k], face, begin, end);
         patch.faces.push_back(wedges);
         patch.primitives.push_back(surface_.primitive[fan_.faces[begin % count]]);
     }
@@ -235,37 +270,27 @@ bool FaceAnglePass::closePart(std::uint32_t vertex,
 }
 
 // No edge across the hole is there already, and no face that the new ones would lie upon.
-bool FaceAnglePass::isNew(std::span<const Triangle> faces, std::size_t ring_size) const {
-    const auto vertex_of = [&](std::uint32_t wedge) { return surface_.wedge_vertex[wedge]; };
-    const auto is_rim = [&](std::uint32_t a, std::uint32_t b) {
-        for (std::size_t i = 0; i < fan_.faces.size(); ++i)
-            if (fan_.spokes[i].vertex == a && fan_.spokes[(i + 1) % fan_.spokes.size()].vertex == b)
-                return true;
-        return false;
-    };
-    for (const Triangle& face : faces)
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t a = vertex_of(face[k]);
-            const std::uint32_t b = vertex_of(face[(k + 1) % 3]);
-            if (!is_rim(a, b) && hasEdge(a, b))
-                return false;
-        }
-    if (ring_size > 3)
+bool FaceAnglePass::isNew(const Patch& patch) const {
+    for (const auto& [a, b] : patch.edges)
+        if (hasEdge(a, b))
+            return false;
+    if (fan_.faces.size() > 3)
         return true;
-    // A single face: its mirror image may be there, on the far side of a thin spike.
-    const Triangle corners{vertex_of(faces[0][0]), vertex_of(faces[0][1]), vertex_of(faces[0][2])};
-    return !new_edges_.contains(corners[0], corners[1]) &&
-           std::ranges::none_of(stars_.of(corners[0]), [&](std::uint32_t f) {
-               if (gone_[f])
-                   return false;
-               const Triangle other = surface_.corners(f);
-               return std::ranges::find(other, corners[1]) != other.end() &&
-                      std::ranges::find(other, corners[2]) != other.end();
+    // A single face: its mirror image may be there, on the far side of a thin spike, or the pass
+    // may have put it there.
+    const std::uint32_t first = surface_.wedge_vertex[patch.faces[0][0]];
+    const std::uint32_t second = surface_.wedge_vertex[patch.faces[0][1]];
+    const std::uint32_t third = surface_.wedge_vertex[patch.faces[0][2]];
+    return !new_edges_.contains(first, second) &&
+           std::ranges::none_of(stars_.of(first), [&](std::uint32_t corner) {
+               const Triangle& other = corners_[corner / 3];
+               return std::ranges::find(other, second) != other.end() &&
+                      (gone_[corner / 3] || std::ranges::find(other, third) != other.end());
            });
 }
 
 bool FaceAnglePass::closeHole(std::uint32_t vertex, Patch& patch) {
-    if (!makeFan(surface_, vertex, stars_.of(vertex), fan_) || !isStraight(vertex))
+    if (!makeFan(surface_, corners_, stars_.of(vertex), fan_) || !isStraight(vertex))
         return false;
     const std::size_t count = fan_.faces.size();
     if (fan_.seams.empty())
@@ -286,10 +311,9 @@ void FaceAnglePass::commit(std::uint32_t vertex, const Patch& patch) {
         surface_.primitive[slot] = patch.primitives[i];
         surface_.changed[slot] = 1;
         surface_.two_sided[slot] = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            new_edges_.insert(surface_.wedge_vertex[patch.faces[i][k]],
-                              surface_.wedge_vertex[patch.faces[i][(k + 1) % 3]]);
     }
+    for (const auto& [a, b] : patch.edges)
+        new_edges_.insert(a, b);
     for (std::size_t i = patch.faces.size(); i < fan_.faces.size(); ++i)
         surface_.faces[fan_.faces[i]] = {kNone, kNone, kNone};
     for (const Spoke& spoke : fan_.spokes)
@@ -302,11 +326,12 @@ std::size_t FaceAnglePass::run(const std::vector<bool>& look,
                                const std::vector<bool>* decided,
                                const JobContext& job) {
     std::size_t removed = 0;
+    Patch patch;
     for (std::uint32_t v = 0; v < kept_.size() && !stopsAt(v, job); ++v) {
         if (!look[v] || kept_[v] || !(decided ? (*decided)[v] : isFlat(v)))
             continue;
-        Patch patch;
-        if (!closeHole(v, patch) || !isNew(patch.faces, fan_.faces.size()))
+        patch.clear();
+        if (!closeHole(v, patch) || !isNew(patch))
             continue;
         commit(v, patch);
         ++removed;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace lodestone {
 
@@ -54,6 +55,14 @@ struct Met {
     std::array<double, 3> sides;
 };
 
+// [faces] shortest side.
+std::vector<float> shortestSides(const CloudSurface& surface) {
+    std::vector<float> shortest(surface.faces.size());
+    for (std::size_t f = 0; f < shortest.size(); ++f)
+        shortest[f] = static_cast<float>(std::ranges::min(sidesOf(surface.points(f))));
+    return shortest;
+}
+
 // Walks over the faces in order, once for each threshold; merge_face(builder, face, threshold)
 // merges what it finds near.
 template <class MergeFace>
@@ -62,15 +71,28 @@ Merges walk(const CloudSurface& surface,
             Fidelity fidelity,
             const JobContext& job,
             const MergeFace& merge_face) {
+    constexpr double kRounding = 1e-6; // of floats
     MergeBuilder builder(surface, fidelity);
-    for (const double threshold : thresholds(surface, distance, fidelity))
-        for (std::size_t f = 0; f < surface.faces.size() && !stopsAt(f, job); ++f) {
-            const Triangle roots = builder.rootsOf(f);
-            if (isCollapsed(roots))
+    const std::vector<float> shortest = shortestSides(surface);
+    std::vector<std::uint32_t> open(surface.faces.size()); // faces that have not collapsed
+    std::iota(open.begin(), open.end(), 0u);
+    for (const double threshold : thresholds(surface, distance, fidelity)) {
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < open.size() && !stopsAt(i, job); ++i) {
+            const std::uint32_t f = open[i];
+            open[kept++] = f;
+            if (shortest[f] > threshold * (1.0 + kRounding) && builder.isUntouched(f))
                 continue;
+            const Triangle roots = builder.rootsOf(f);
+            if (isCollapsed(roots)) {
+                --kept;
+                continue;
+            }
             const Triangle3d points = builder.pointsOf(roots);
             merge_face(builder, Met{roots, points, sidesOf(points)}, threshold);
         }
+        open.resize(kept);
+    }
     return builder.finish();
 }
 

@@ -7,53 +7,34 @@
 namespace lodestone {
 
 MergeBuilder::MergeBuilder(const CloudSurface& surface, Fidelity fidelity)
-    : surface_(surface), fidelity_(fidelity) {
+    : fidelity_(fidelity), corners_(surface.faces.size()), merged_(surface.positions.size(), 0) {
     merges_.target.resize(surface.positions.size());
     std::iota(merges_.target.begin(), merges_.target.end(), 0u);
     merges_.positions = surface.positions;
+    for (std::size_t f = 0; f < corners_.size(); ++f)
+        corners_[f] = surface.corners(f);
     if (fidelity == Fidelity::Sound)
         linkFaces();
 }
 
 void MergeBuilder::linkFaces() {
-    first_.assign(surface_.positions.size(), kNone);
-    last_.assign(surface_.positions.size(), kNone);
-    mark_.assign(surface_.positions.size(), 0);
-    links_.reserve(3 * surface_.faces.size());
-    for (std::uint32_t f = 0; f < surface_.faces.size(); ++f)
-        for (const std::uint32_t vertex : surface_.corners(f)) {
-            const auto link = static_cast<std::uint32_t>(links_.size());
-            links_.push_back({f, kNone});
-            if (first_[vertex] == kNone)
-                first_[vertex] = link;
-            else
-                links_[last_[vertex]].next = link;
-            last_[vertex] = link;
-        }
-}
-
-std::uint32_t MergeBuilder::find(std::uint32_t vertex) {
-    std::vector<std::uint32_t>& parent = merges_.target;
-    while (parent[vertex] != vertex) {
-        parent[vertex] = parent[parent[vertex]];
-        vertex = parent[vertex];
+    const std::size_t vertices = merges_.target.size();
+    first_.assign(vertices, kNone);
+    last_.assign(vertices, kNone);
+    mark_.assign(vertices, 0);
+    next_.assign(3 * corners_.size(), kNone);
+    for (std::uint32_t link = 0; link < next_.size(); ++link) {
+        const std::uint32_t vertex = corners_[link / 3][link % 3];
+        if (first_[vertex] == kNone)
+            first_[vertex] = link;
+        else
+            next_[last_[vertex]] = link;
+        last_[vertex] = link;
     }
-    return vertex;
-}
-
-Triangle MergeBuilder::rootsOf(std::size_t face) {
-    Triangle roots = surface_.corners(face);
-    for (std::uint32_t& root : roots)
-        root = find(root);
-    return roots;
-}
-
-Triangle3d MergeBuilder::pointsOf(const Triangle& roots) const {
-    return {position(roots[0]), position(roots[1]), position(roots[2])};
 }
 
 void MergeBuilder::unlink(std::uint32_t root, std::uint32_t link, std::uint32_t previous) {
-    (previous == kNone ? first_[root] : links_[previous].next) = links_[link].next;
+    (previous == kNone ? first_[root] : next_[previous]) = next_[link];
     if (last_[root] == link)
         last_[root] = previous;
 }
@@ -65,8 +46,8 @@ bool MergeBuilder::turnsFace(std::span<const std::uint32_t> roots, const glm::dv
         mark_[root] = stamp_;
     for (const std::uint32_t root : roots) {
         std::uint32_t previous = kNone;
-        for (std::uint32_t link = first_[root]; link != kNone; link = links_[link].next) {
-            const Triangle corners = rootsOf(links_[link].face);
+        for (std::uint32_t link = first_[root]; link != kNone; link = next_[link]) {
+            const Triangle corners = rootsOf(link / 3);
             if (corners[0] == corners[1] || corners[1] == corners[2] || corners[0] == corners[2]) {
                 unlink(root, link, previous);
                 continue;
@@ -101,6 +82,7 @@ bool MergeBuilder::merge(std::span<const std::uint32_t> roots, const glm::dvec3&
 void MergeBuilder::mergeAnyway(std::span<const std::uint32_t> roots, const glm::dvec3& place) {
     const std::uint32_t kept = *std::ranges::min_element(roots);
     for (const std::uint32_t root : roots) {
+        merged_[root] = 1;
         if (root == kept)
             continue;
         merges_.target[root] = kept;
@@ -109,7 +91,7 @@ void MergeBuilder::mergeAnyway(std::span<const std::uint32_t> roots, const glm::
         if (first_[kept] == kNone)
             first_[kept] = first_[root];
         else
-            links_[last_[kept]].next = first_[root];
+            next_[last_[kept]] = first_[root];
         last_[kept] = last_[root];
     }
     merges_.positions[kept] = place;

@@ -9,13 +9,34 @@ public:
     // Sound: merges that would turn a remaining face by more than 80 degrees are refused.
     MergeBuilder(const CloudSurface& surface, Fidelity fidelity);
 
-    std::uint32_t find(std::uint32_t vertex);
+    std::uint32_t find(std::uint32_t vertex) {
+        std::vector<std::uint32_t>& parent = merges_.target;
+        while (parent[vertex] != vertex) {
+            parent[vertex] = parent[parent[vertex]];
+            vertex = parent[vertex];
+        }
+        return vertex;
+    }
 
     const glm::dvec3& position(std::uint32_t root) const { return merges_.positions[root]; }
 
     // Corners of a face as roots, and where they are.
-    Triangle rootsOf(std::size_t face);
-    Triangle3d pointsOf(const Triangle& roots) const;
+    Triangle rootsOf(std::size_t face) {
+        Triangle& corners = corners_[face];
+        for (std::uint32_t& corner : corners)
+            corner = find(corner);
+        return corners;
+    }
+
+    Triangle3d pointsOf(const Triangle& roots) const {
+        return {position(roots[0]), position(roots[1]), position(roots[2])};
+    }
+
+    // Whether no corner of a face has merged: it is where it was.
+    bool isUntouched(std::size_t face) const {
+        const Triangle& corners = corners_[face];
+        return !merged_[corners[0]] && !merged_[corners[1]] && !merged_[corners[2]];
+    }
 
     // Makes these distinct roots one vertex at a place. False if refused. Amortised near O(faces
     // around them).
@@ -30,23 +51,19 @@ public:
     Merges finish();
 
 private:
-    struct Link {
-        std::uint32_t face = 0;
-        std::uint32_t next = kNone;
-    };
-
     void linkFaces();
     // Takes a face that has collapsed out of a root's list; previous: the link before it or kNone.
     void unlink(std::uint32_t root, std::uint32_t link, std::uint32_t previous);
 
-    const CloudSurface& surface_;
     Fidelity fidelity_;
-    Merges merges_; // target: parents
+    Merges merges_;                    // target: parents
+    std::vector<Triangle> corners_;    // [faces] roots when last looked at
+    std::vector<std::uint8_t> merged_; // [vertices]
     // Faces around each root as lists that merge in O(1); faces that have collapsed drop out when
-    // a list is walked.
-    std::vector<Link> links_;
-    std::vector<std::uint32_t> first_; // [vertices] into links_
-    std::vector<std::uint32_t> last_;  // [vertices] into links_
+    // a list is walked. A link is a corner: 3 * face + which.
+    std::vector<std::uint32_t> next_;  // [links]
+    std::vector<std::uint32_t> first_; // [vertices] link
+    std::vector<std::uint32_t> last_;  // [vertices] link
     std::vector<std::uint32_t> mark_;  // [vertices] stamp_: about to merge
     std::uint32_t stamp_ = 0;
 };

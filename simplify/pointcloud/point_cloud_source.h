@@ -1,6 +1,8 @@
 #pragma once
 // One-shot methods behind the contract of a source. A position is a rung of a ladder of values of
 // the method's main parameter; a LOD is computed when it is asked for and the last ones are kept.
+// Targets are searched for along the rungs: the counts of a rung need neither the last flips nor
+// the geometry, which follow once for the rung that was found.
 #include "scene/result.h"
 #include "simplify/lod_source.h"
 #include "simplify/pointcloud/cloud_method.h"
@@ -14,12 +16,18 @@ struct PointCloudOptions {
     CloudSettings settings; // main is overwritten
 };
 
-// Welds every submesh and tries the method along the ladder, so that a target is then found in a
-// few tries. Distances are divided by the largest scale of the submesh's instances. A submesh keeps
-// at least min(4, its own) triangles. Errors: Cancelled. Any thread, deterministic.
+// Welds every submesh and tries the method where searches for a target begin, or at the given
+// value. Distances are divided by the largest scale of the submesh's instances. A submesh keeps at
+// least min(4, its own) triangles. Errors: Cancelled. Any thread, deterministic.
 Result<LodSourcePtr> preparePointCloud(ScenePtr scene,
                                        const PointCloudOptions& options,
                                        const ScheduleOptions& schedule,
                                        const JobContext& job);
+
+// The same for the scene of another source; what is welded is taken from it if it is one of these.
+Result<LodSourcePtr> preparePointCloudLike(const LodSource& other,
+                                           const PointCloudOptions& options,
+                                           const ScheduleOptions& schedule,
+                                           const JobContext& job);
 
 } // namespace lodestone

@@ -113,10 +113,7 @@ ParameterInfo retriangulationParameter() {
 }
 
 template <Algorithm (*Row)(), const CloudMethod& Method>
-Result<LodSourcePtr> prepare(const ScenePtr& scene,
-                             const ParameterValues& values,
-                             const ScheduleOptions& schedule,
-                             const JobContext& job) {
+Result<PointCloudOptions> optionsFrom(const ParameterValues& values) {
     const Algorithm row = Row();
     if (const Result<void> checked = checkParameters(row, values); !checked)
         return tl::unexpected(checked.error());
@@ -131,7 +128,29 @@ Result<LodSourcePtr> prepare(const ScenePtr& scene,
     settings.angle_deg = parameterValue(row, values, "angle");
     settings.passes = static_cast<std::uint32_t>(parameterValue(row, values, "passes"));
     settings.area_share = 0.01 * parameterValue(row, values, "area");
-    return preparePointCloud(scene, options, schedule, job);
+    return options;
+}
+
+template <Algorithm (*Row)(), const CloudMethod& Method>
+Result<LodSourcePtr> prepare(const ScenePtr& scene,
+                             const ParameterValues& values,
+                             const ScheduleOptions& schedule,
+                             const JobContext& job) {
+    const Result<PointCloudOptions> options = optionsFrom<Row, Method>(values);
+    if (!options)
+        return tl::unexpected(options.error());
+    return preparePointCloud(scene, *options, schedule, job);
+}
+
+template <Algorithm (*Row)(), const CloudMethod& Method>
+Result<LodSourcePtr> prepareLike(const LodSource& other,
+                                 const ParameterValues& values,
+                                 const ScheduleOptions& schedule,
+                                 const JobContext& job) {
+    const Result<PointCloudOptions> options = optionsFrom<Row, Method>(values);
+    if (!options)
+        return tl::unexpected(options.error());
+    return preparePointCloudLike(other, *options, schedule, job);
 }
 
 // What all rows have in common.
@@ -154,6 +173,7 @@ Algorithm vertexTriplexAlgorithm() {
     row.parameters = {
         coverageParameter(), literalParameter(kLiteralCircles), retriangulationParameter()};
     row.prepare = prepare<vertexTriplexAlgorithm, kVertexTriplexMethod>;
+    row.prepareLike = prepareLike<vertexTriplexAlgorithm, kVertexTriplexMethod>;
     return row;
 }
 
@@ -166,6 +186,7 @@ Algorithm faceAngleAlgorithm() {
                       literalParameter(kLiteralAngles),
                       retriangulationParameter()};
     row.prepare = prepare<faceAngleAlgorithm, kFaceAngleMethod>;
+    row.prepareLike = prepareLike<faceAngleAlgorithm, kFaceAngleMethod>;
     return row;
 }
 
@@ -175,6 +196,7 @@ Algorithm intervertexDistanceAlgorithm() {
     row.parameters = {
         distanceParameter(), literalParameter(kLiteralCircles), retriangulationParameter()};
     row.prepare = prepare<intervertexDistanceAlgorithm, kIntervertexDistanceMethod>;
+    row.prepareLike = prepareLike<intervertexDistanceAlgorithm, kIntervertexDistanceMethod>;
     return row;
 }
 
@@ -184,6 +206,7 @@ Algorithm sphericalScanningAlgorithm() {
     row.parameters = {
         radiusParameter(), literalParameter(kLiteralSpheres), retriangulationParameter()};
     row.prepare = prepare<sphericalScanningAlgorithm, kSphericalScanningMethod>;
+    row.prepareLike = prepareLike<sphericalScanningAlgorithm, kSphericalScanningMethod>;
     return row;
 }
 
@@ -194,6 +217,7 @@ Algorithm vertexTriplexDistanceAlgorithm() {
     row.parameters = {
         distanceParameter(), literalParameter(kLiteralCircles), retriangulationParameter()};
     row.prepare = prepare<vertexTriplexDistanceAlgorithm, kVertexTriplexDistanceMethod>;
+    row.prepareLike = prepareLike<vertexTriplexDistanceAlgorithm, kVertexTriplexDistanceMethod>;
     return row;
 }
 
@@ -207,6 +231,7 @@ Algorithm faceAngleScanningAlgorithm() {
                       literalParameter(kLiteralSpheres),
                       retriangulationParameter()};
     row.prepare = prepare<faceAngleScanningAlgorithm, kFaceAngleScanningMethod>;
+    row.prepareLike = prepareLike<faceAngleScanningAlgorithm, kFaceAngleScanningMethod>;
     return row;
 }
 

@@ -10,8 +10,9 @@ struct FlatPolygon {
 };
 
 // Triangulates a simple polygon by cutting the ear with the widest smallest angle, again and again.
-// Appends points.size() - 2 triangles, indices into points, counter-clockwise. False if there is no
-// ear left: the polygon is not simple. O(points^3), meant for a few dozen.
+// Appends points.size() - 2 triangles, indices into points, counter-clockwise; of each but the last
+// the side from its third corner to its first is new. False if there is no ear left: the polygon is
+// not simple. O(points^3), meant for a few dozen.
 bool triangulate(const FlatPolygon& polygon, std::vector<Triangle>& triangles);
 
 // Two axes across a unit normal, right-handed with it.

@@ -98,7 +98,7 @@ bool sameGeometry(const CloudPiece& a, const CloudPiece& b) {
 
 void checkSubmesh(const CloudSubmesh& cloud) {
     const Bounds bounds = localBounds(*cloud.submesh);
-    const Edges input = countEdges(originalPiece(cloud));
+    const Edges input = countEdges(finishPiece(cloud, originalDraft(cloud), {}));
     const bool closed = input.single == 0 && input.oriented == 0;
     for (const CloudMethod* method : kMethods) {
         const bool distance = method->main == MainParameter::DistancePct;
