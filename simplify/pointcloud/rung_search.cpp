@@ -41,7 +41,8 @@ private:
 
     void note(const Tried& tried) {
         if (tried.excess <= 0.0) {
-            if (!nearest_ || tried.excess > nearest_->excess)
+            if (!nearest_ || tried.excess > nearest_->excess ||
+                (tried.excess == nearest_->excess && tried.rung < nearest_->rung))
                 nearest_ = tried;
             if (!coarse_ || tried.rung < coarse_->rung)
                 coarse_ = tried;

@@ -297,6 +297,49 @@ TEST(PointCloud, TargetsOfEveryKindAreMet) {
     }
 }
 
+TEST(PointCloud, SourcesOfOneSceneShareItsWeldsAndDifferInNothing) {
+    const ScenePtr scene = sphereScene();
+    const LodSourcePtr other = prepared("vt", scene, {});
+    const LodSourcePtr foreign = prepared("ias", scene, {});
+    for (const std::string_view id : kIds) {
+        const LodSourcePtr alone = prepared(id, scene, {});
+        for (const LodSourcePtr& from : {other, foreign}) {
+            const LodSourcePtr like = findAlgorithm(id)->prepareLike(*from, {}, {}, {}).value();
+            EXPECT_EQ(like->scene(), scene);
+            for (const std::uint64_t position : {1000u, 2000u, 3000u}) {
+                const Lod expected = alone->readOut(position, nullptr);
+                const Lod lod = like->readOut(position, nullptr);
+                EXPECT_EQ(lod.submeshes[0].primitives[0]->indices,
+                          expected.submeshes[0].primitives[0]->indices)
+                    << id;
+            }
+        }
+    }
+}
+
+TEST(PointCloud, CountsAreThoseOfTheGeometryThatIsReadOut) {
+    const Submesh sphere = meshes::submeshOf({meshes::sphere(24, 32)});
+    const Submesh card = meshes::submeshOf({meshes::card(12)});
+    const ScenePtr scene = meshes::sceneOf({sphere, card}, {{glm::dmat4(1.0)}, {glm::dmat4(1.0)}});
+    for (const std::string_view id : kIds) {
+        const LodSourcePtr source = prepared(id, scene, {});
+        for (const std::uint64_t position : {0u, 500u, 1000u, 2500u, 4096u}) {
+            const std::uint64_t triangles = source->trianglesAt(position);
+            const LodShape shape = source->shapeAt(position);
+            const Lod lod = source->readOut(position, nullptr);
+            EXPECT_EQ(triangles, lod.triangles) << id;
+            const LodShape made = shapeOf(*scene, lod);
+            for (std::size_t s = 0; s < 2; ++s) {
+                EXPECT_EQ(shape.submeshes[s].changed, made.submeshes[s].changed);
+                EXPECT_EQ(shape.submeshes[s].primitives[0].vertices,
+                          made.submeshes[s].primitives[0].vertices);
+                EXPECT_EQ(shape.submeshes[s].primitives[0].indices,
+                          made.submeshes[s].primitives[0].indices);
+            }
+        }
+    }
+}
+
 TEST(PointCloud, LockedSubmeshesStayAndImportantOnesKeepMore) {
     const Submesh sphere = meshes::submeshOf({meshes::sphere(24, 32)});
     const ScenePtr scene =

@@ -1,0 +1,22 @@
+#pragma once
+// The six point-cloud methods: the paper's protocol, and all of them at equal triangles.
+#include "bench/figures.h"
+
+#include <iosfwd>
+
+namespace lodestone::bench {
+
+enum class PointCloudExtent : std::uint8_t {
+    Quick, // one parameter a method
+    Full,  // the paper's four
+};
+
+// Writes a Markdown table for each wanted input. Frames are drawn off screen: the mean of the
+// 100th to the 1,100th, within the limits of `lodestone render --measure`. What fails is told on
+// stderr and left out. Returns the exit code. Main thread.
+int writePointCloud(std::ostream& out,
+                    Inputs& inputs,
+                    PointCloudExtent extent,
+                    const TitleFilter& wanted);
+
+} // namespace lodestone::bench
