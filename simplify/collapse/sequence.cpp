@@ -72,6 +72,9 @@ WedgeAttributes gatherAttributes(const Submesh& submesh, const Complex& complex)
                     slot.low[c] = std::min(slot.low[c], value);
                     slot.high[c] = std::max(slot.high[c], value);
                 }
+            for (std::size_t c = 0; c < slot.low.size(); ++c)
+                if (slot.low[c] > slot.high[c]) // no number among them
+                    slot.low[c] = slot.high[c] = 0.0f;
         }
     Bounds bounds;
     for (const glm::vec3& position : complex.positions)
