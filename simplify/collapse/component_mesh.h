@@ -13,10 +13,9 @@ namespace lodestone {
 
 // How much attributes count beside the shape; 0: not at all.
 struct AttributeWeights {
-    double texcoord =
-        1.0;             // 1: a texture that slides by some way counts as a surface off by as much
-    double normal = 1.0; // 1: a radian counts as much as 1 % of the submesh's size
-    double color = 1.0;  // 1: black for white counts as much as 1 % of the submesh's size
+    double texcoord = 0.5; // 1: a texture sliding by some way counts as a surface off by as much
+    double normal = 0.25;  // 1: a radian counts as a surface off by an edge's length
+    double color = 0.25;   // 1: black for white counts as a surface off by an edge's length
 };
 
 struct CollapseOptions {
@@ -48,7 +47,7 @@ struct WedgeAttributes {
     std::vector<std::vector<Slot>>
         slots;            // [primitives][attributes], components 0: not interpolated
     bool carries = false; // some attribute or morph target is taken from the nearest wedge
-    double extent = 0.0;  // diagonal of the submesh, without what lies absurdly far out
+    double spacing = 0.0; // root of two faces' mean area: about the length of an edge
 };
 
 // What happened to one component, in local ids; step numbers start at 1.

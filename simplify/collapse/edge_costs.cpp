@@ -37,8 +37,7 @@ float ComponentMesh::texcoordScale(std::uint32_t primitive,
 
 // Sets which values count and resets the wedges' quadrics.
 void ComponentMesh::chooseValues() {
-    constexpr double kShare = 0.01; // of the size: what a radian or white for black stands for
-    const auto share = static_cast<float>(kShare * attributes_.extent / scale_);
+    const auto spacing = static_cast<float>(attributes_.spacing / scale_);
     const AttributeWeights& weights = options_.attributes;
     counted_.assign(attributes_.slots.size(), {});
     std::size_t count = 0;
@@ -53,9 +52,9 @@ void ComponentMesh::chooseValues() {
             if (slot.tangent || slot.components == 0)
                 continue;
             if (slot.unit)
-                scale = share * static_cast<float>(weights.normal);
+                scale = spacing * static_cast<float>(weights.normal);
             else if (!slot.texcoord)
-                scale = share * static_cast<float>(weights.color);
+                scale = spacing * static_cast<float>(weights.color);
             else if (weights.texcoord > 0.0)
                 scale = static_cast<float>(weights.texcoord) * texcoordScale(p, slot);
             for (std::uint32_t c = 0; scale > 0.0f && c < slot.components; ++c)

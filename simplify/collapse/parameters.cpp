@@ -54,14 +54,14 @@ std::vector<ParameterInfo> collapseParameters() {
     parameters.push_back(weightParameter(
         "normal-weight",
         "Shading weight",
-        "How much shading normals count. 1: a radian counts as much as a surface off by 1 % of the "
-        "mesh's size. 0: they are only carried along.",
+        "How much shading normals count. 1: a radian counts as a surface that is off by an edge's "
+        "length. 0: they are only carried along.",
         weights.normal));
     parameters.push_back(weightParameter(
         "color-weight",
         "Colour weight",
-        "How much vertex colours count. 1: black for white counts as much as a surface off by 1 % "
-        "of the mesh's size. 0: they are only carried along.",
+        "How much vertex colours count. 1: black for white counts as a surface that is off by an "
+        "edge's length. 0: they are only carried along.",
         weights.color));
     return parameters;
 }

@@ -31,6 +31,22 @@ bool isInterpolated(std::string_view semantic) {
            semantic.starts_with("COLOR_");
 }
 
+// Without faces that reach absurdly far out.
+double spacingOf(const Complex& complex) {
+    double area = 0.0;
+    std::size_t faces = 0;
+    for (const std::array<std::uint32_t, 3>& face : complex.faces) {
+        std::array<glm::dvec3, 3> p;
+        for (std::size_t k = 0; k < 3; ++k)
+            p[k] = glm::dvec3(complex.positions[complex.wedge_vertex[face[k]]]);
+        if (!std::ranges::all_of(p, [&](const auto& corner) { return complex.bulk.holds(corner); }))
+            continue;
+        area += 0.5 * glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
+        ++faces;
+    }
+    return faces > 0 ? std::sqrt(2.0 * area / static_cast<double>(faces)) : 0.0;
+}
+
 } // namespace
 
 WedgeAttributes gatherAttributes(const Submesh& submesh, const Complex& complex) {
@@ -76,11 +92,7 @@ WedgeAttributes gatherAttributes(const Submesh& submesh, const Complex& complex)
                 if (slot.low[c] > slot.high[c]) // no number among them
                     slot.low[c] = slot.high[c] = 0.0f;
         }
-    Bounds bounds;
-    for (const glm::vec3& position : complex.positions)
-        if (complex.bulk.holds(glm::dvec3(position)))
-            bounds.add(glm::dvec3(position));
-    all.extent = bounds.diagonal();
+    all.spacing = spacingOf(complex);
     return all;
 }
 
