@@ -17,23 +17,31 @@ bool ComponentMesh::folded(std::uint32_t face_a, std::uint32_t face_b) const {
 
 // Sorts the faces around both ends of an edge: those with one end, and those that would die.
 void ComponentMesh::gatherRings(std::uint32_t a, std::uint32_t b) {
-    ring_a_.clear();
-    ring_b_.clear();
     dying_.clear();
-    const auto gather = [&](std::uint32_t v, std::uint32_t other, std::vector<RingFace>& ring) {
+    if (const std::size_t most = facesAround(a).size() + facesAround(b).size();
+        ring_memory_.size() < most)
+        ring_memory_.resize(2 * most);
+    const auto gather = [&](std::uint32_t v, std::uint32_t other, RingFace* out) {
         for (const std::uint32_t f : facesAround(v)) {
+            constexpr std::array<std::uint8_t, 3> kNext{1, 2, 0};
+            constexpr std::array<std::uint8_t, 3> kLast{2, 0, 1};
             const Corners& face = faces_[f];
-            const std::size_t k = face[0] == v ? 0 : face[1] == v ? 1 : 2;
-            const std::uint32_t next = face[k == 2 ? 0 : k + 1];
-            const std::uint32_t last = face[k == 0 ? 2 : k - 1];
+            const std::size_t k = // no branch: which corner it is cannot be foreseen
+                static_cast<std::size_t>(face[1] == v) + 2 * static_cast<std::size_t>(face[2] == v);
+            const std::uint32_t next = face[kNext[k]];
+            const std::uint32_t last = face[kLast[k]];
+            *out = {f, next, last};
             if (next != other && last != other)
-                ring.push_back({f, next, last, {}});
+                ++out;
             else if (v == a)
                 dying_.push_back(f);
         }
+        return out;
     };
-    gather(a, b, ring_a_);
-    gather(b, a, ring_b_);
+    RingFace* const begin = ring_memory_.data();
+    RingFace* const middle = gather(a, b, begin);
+    ring_a_ = {begin, middle};
+    ring_b_ = {middle, gather(b, a, middle)};
 }
 
 bool ComponentMesh::hasFace(std::span<const RingFace> ring,
@@ -68,22 +76,43 @@ bool ComponentMesh::keepsTopology(std::uint32_t a, std::uint32_t b) {
     return true;
 }
 
-// Whether no face of a ring turns by more than the flip angle when its vertex moves.
-bool ComponentMesh::staysUpright(std::span<const RingFace> ring, Float3 to) const {
-    for (const RingFace& face : ring) {
-        const Float3 u = points_[face.next].position;
-        const Float3 side = points_[face.last].position - u;
-        const Float3 before = face.area;
-        const Float3 after = cross(u - to, side);
-        const float before2 = dot(before, before);
-        if (!(before2 > 0.0f))
-            continue;
-        const float product = dot(before, after);
-        const float limit = flip_cosine2_ * before2 * dot(after, after);
-        // product >= cosine * |before| |after|, without the roots
-        const bool upright = flip_sharp_ ? product > 0.0f && product * product >= limit
-                                         : product >= 0.0f || product * product <= limit;
-        if (!upright)
+// Adds a ring's blocks; the sum of its faces' areas. v: the vertex it is around.
+Float3 ComponentMesh::gatherBlocks(std::span<const RingFace> ring, std::uint32_t v) {
+    const Vector3<Float4> from = positionsOf({v, v, v, v});
+    Vector3<Float4> sum;
+    for (std::size_t i = 0; i < ring.size(); i += 4) {
+        std::array<std::uint32_t, 4> next;
+        std::array<std::uint32_t, 4> last;
+        for (std::size_t lane = 0; lane < 4; ++lane) {
+            const bool there = i + lane < ring.size();
+            const RingFace& face = ring[there ? i + lane : i];
+            next[lane] = face.next;
+            last[lane] = there ? face.last : face.next;
+        }
+        RingBlock& block = blocks_.emplace_back();
+        block.next = positionsOf(next);
+        block.side = positionsOf(last) - block.next;
+        block.area = cross(block.next - from, block.side);
+        sum = sum + block.area;
+    }
+    const auto across = [](Float4 four) { return (four[0] + four[1]) + (four[2] + four[3]); };
+    return {across(sum.x), across(sum.y), across(sum.z)};
+}
+
+// Whether no face of the rings turns by more than the flip angle when its vertex moves.
+bool ComponentMesh::staysUpright(Float3 to) const {
+    const auto all = [](float value) { return Float4{value, value, value, value}; };
+    const Vector3<Float4> target{all(to.x), all(to.y), all(to.z)};
+    const Float4 zero{};
+    for (const RingBlock& block : blocks_) {
+        const Vector3<Float4> after = cross(block.next - target, block.side);
+        const Float4 before2 = dot(block.area, block.area);
+        const Float4 product = dot(block.area, after);
+        const Float4 limit = before2 * dot(after, after) * flip_cosine2_;
+        // product >= cosine * |before| |after|, without the roots; nothing to turn without an area
+        const auto within = flip_sharp_ ? (product > zero) & (product * product >= limit)
+                                        : (product >= zero) | (product * product <= limit);
+        if (!allOf(within | !(before2 > zero)))
             return false;
     }
     return true;
@@ -94,17 +123,9 @@ bool ComponentMesh::staysUpright(std::span<const RingFace> ring, Float3 to) cons
 // would overdo it next to vertices that still lie outside. at, half: from the edge's middle.
 Float3 ComponentMesh::towardsVolume(std::uint32_t a, std::uint32_t b, Float3 at, Float3 half) {
     constexpr float kShare = 0.8f;
-    const auto area_of = [&](std::span<RingFace> ring, Float3 from) {
-        Float3 area;
-        for (RingFace& face : ring) {
-            const Float3 u = points_[face.next].position;
-            face.area = cross(u - from, points_[face.last].position - u);
-            area = area + face.area;
-        }
-        return area;
-    };
-    const Float3 area_a = area_of(ring_a_, points_[a].position);
-    const Float3 area_b = area_of(ring_b_, points_[b].position);
+    blocks_.clear();
+    const Float3 area_a = gatherBlocks(ring_a_, a);
+    const Float3 area_b = gatherBlocks(ring_b_, b);
     Float3 area = area_a + area_b;
     for (const std::uint32_t f : dying_)
         area = area + faceNormal(faces_[f]);
@@ -125,8 +146,7 @@ bool ComponentMesh::tryCollapse(std::uint32_t a,
     gatherRings(a, b);
     const Float3 at = towardsVolume(a, b, placement.at, half);
     const Float3 target = from_a + half + at;
-    if (strictness != Strictness::Anything &&
-        !(staysUpright(ring_a_, target) && staysUpright(ring_b_, target)))
+    if (strictness != Strictness::Anything && !staysUpright(target))
         return false;
     if (strictness == Strictness::Manifold && !keepsTopology(a, b))
         return false;

@@ -173,7 +173,13 @@ private:
         std::uint32_t face = 0;
         std::uint32_t next = 0; // the corner after the vertex
         std::uint32_t last = 0; // the corner before it
-        Float3 area{};          // its normal, as long as twice its area; set by towardsVolume()
+    };
+
+    // Four of them side by side; where fewer are left, faces without an area.
+    struct RingBlock {
+        Vector3<Float4> next; // position of the corner after the vertex
+        Vector3<Float4> side; // from there to the corner before the vertex
+        Vector3<Float4> area; // normal, as long as twice the area
     };
 
     void buildVertices(std::size_t component);
@@ -209,7 +215,9 @@ private:
     void gatherRings(std::uint32_t a, std::uint32_t b);
     bool keepsTopology(std::uint32_t a, std::uint32_t b);
     Float3 towardsVolume(std::uint32_t a, std::uint32_t b, Float3 at, Float3 half);
-    bool staysUpright(std::span<const RingFace> ring, Float3 to) const;
+    Vector3<Float4> positionsOf(const std::array<std::uint32_t, 4>& vertices) const;
+    Float3 gatherBlocks(std::span<const RingFace> ring, std::uint32_t v);
+    bool staysUpright(Float3 to) const;
     bool hasFace(std::span<const RingFace> ring, std::uint32_t x, std::uint32_t y) const;
 
     void mergeFaces(std::uint32_t a, std::uint32_t b);
@@ -277,9 +285,11 @@ private:
     std::vector<std::uint32_t> local_of_vertex_; // [complex vertices], kNone outside load
     std::vector<std::uint32_t> local_of_wedge_;  // [complex wedges]
     // The collapse at hand.
-    std::vector<RingFace> ring_a_;     // faces around a without b
-    std::vector<RingFace> ring_b_;     // faces around b without a
-    std::vector<std::uint32_t> dying_; // faces with both
+    std::span<RingFace> ring_a_;        // faces around a without b
+    std::span<RingFace> ring_b_;        // faces around b without a
+    std::vector<RingFace> ring_memory_; // of both, never shrinks
+    std::vector<RingBlock> blocks_;     // of both rings
+    std::vector<std::uint32_t> dying_;  // faces with both
 
     struct MergedWedges {
         std::uint32_t of_a = 0; // that meet in a face on the edge
@@ -289,8 +299,10 @@ private:
     };
 
     std::vector<MergedWedges> merged_wedges_; // of the collapse at hand, in order
-    std::vector<std::uint32_t> spokes_;       // of costSpokes()
-    std::vector<float> spoke_keys_;
+    std::span<std::uint32_t> spokes_;         // of costSpokes()
+    std::span<float> spoke_keys_;
+    std::vector<std::uint32_t> spoke_memory_; // never shrinks: nothing is cleared in vain
+    std::vector<float> spoke_key_memory_;
     // Wedges that meet along a spoke, {v's, the other's}, on up to two sides; kNone: none.
     using SpokePairs = std::array<std::array<std::uint32_t, 2>, 2>;
     std::vector<SpokePairs> spoke_pairs_;
@@ -298,19 +310,36 @@ private:
     CollapseLog log_;
 };
 
+inline Vector3<Float4>
+ComponentMesh::positionsOf(const std::array<std::uint32_t, 4>& vertices) const {
+    static_assert(sizeof(Point) == sizeof(Float4));
+    const auto [x, y, z, marks] = transposed({loadFour(&points_[vertices[0]]),
+                                              loadFour(&points_[vertices[1]]),
+                                              loadFour(&points_[vertices[2]]),
+                                              loadFour(&points_[vertices[3]])});
+    return {x, y, z};
+}
+
 template <class Accept>
 ComponentMesh::Spokes ComponentMesh::costSpokes(std::uint32_t v, Accept accept) {
     const std::uint32_t stamp = nextStamp();
     points_[v].mark = stamp;
-    spokes_.clear();
-    for (const std::uint32_t face : facesAround(v))
-        for (const std::uint32_t other : faces_[face])
-            if (points_[other].mark != stamp) {
-                points_[other].mark = stamp;
-                if (accept(other))
-                    spokes_.push_back(other);
-            }
-    spoke_keys_.resize(spokes_.size());
+    const std::span<const std::uint32_t> around = facesAround(v);
+    if (spoke_memory_.size() < 3 * around.size()) {
+        spoke_memory_.resize(6 * around.size());
+        spoke_key_memory_.resize(6 * around.size());
+    }
+    std::uint32_t* const found = spoke_memory_.data();
+    std::size_t count = 0;
+    for (const std::uint32_t face : around)
+        for (const std::uint32_t other : faces_[face]) { // no branch: half of them were seen
+            const bool fresh = points_[other].mark != stamp;
+            points_[other].mark = stamp;
+            found[count] = other;
+            count += static_cast<std::size_t>(fresh & accept(other));
+        }
+    spokes_ = {found, count};
+    spoke_keys_ = {spoke_key_memory_.data(), count};
     if (wedge_quadrics_.active()) {
         gatherSpokePairs(v);
         costSpokeEdges<true>(v);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace lodestone {
 
@@ -185,32 +186,45 @@ void ComponentMesh::addMerges(const std::array<std::size_t, 4>& spokes,
 
 namespace {
 
-// One quadric in all lanes, or four different ones.
+QuadricOf<Float4> inAllLanes(const Quadric& q) {
+    const auto all = [](float value) { return Float4{value, value, value, value}; };
+    return {all(q.xx),
+            all(q.yy),
+            all(q.zz),
+            all(q.xy),
+            all(q.xz),
+            all(q.yz),
+            all(q.bx),
+            all(q.by),
+            all(q.bz),
+            all(q.c),
+            Float4{}};
+}
+
+// Four quadrics side by side, without their weights.
 QuadricOf<Float4> lanes(const std::array<const Quadric*, 4>& q) {
-    const auto gather = [&](float Quadric::*part) {
-        return Float4{q[0]->*part, q[1]->*part, q[2]->*part, q[3]->*part};
+    static_assert(offsetof(Quadric, xy) == 3 * sizeof(float) &&
+                  offsetof(Quadric, xz) == 4 * sizeof(float) &&
+                  offsetof(Quadric, by) == 7 * sizeof(float) &&
+                  offsetof(Quadric, weight) == 10 * sizeof(float));
+    const auto columns = [&](float Quadric::*first) {
+        return transposed({loadFour(&(q[0]->*first)),
+                           loadFour(&(q[1]->*first)),
+                           loadFour(&(q[2]->*first)),
+                           loadFour(&(q[3]->*first))});
     };
-    QuadricOf<Float4> r;
-    r.xx = gather(&Quadric::xx);
-    r.yy = gather(&Quadric::yy);
-    r.zz = gather(&Quadric::zz);
-    r.xy = gather(&Quadric::xy);
-    r.xz = gather(&Quadric::xz);
-    r.yz = gather(&Quadric::yz);
-    r.bx = gather(&Quadric::bx);
-    r.by = gather(&Quadric::by);
-    r.bz = gather(&Quadric::bz);
-    r.c = gather(&Quadric::c);
-    return r;
+    const auto [xx, yy, zz, xy] = columns(&Quadric::xx);
+    const auto [xz, yz, bx, skipped] = columns(&Quadric::xz);
+    const auto [by, bz, c, weight] = columns(&Quadric::by);
+    return {xx, yy, zz, xy, xz, yz, bx, by, bz, c, Float4{}};
 }
 
 } // namespace
 
 template <bool WithAttributes>
 void ComponentMesh::costSpokeEdges(std::uint32_t v) {
-    const Quadric* own = &metrics_[v].quadric;
-    const QuadricOf<Float4> first = lanes({own, own, own, own});
-    const Float3 from = points_[v].position;
+    const QuadricOf<Float4> first = inAllLanes(metrics_[v].quadric);
+    const Vector3<Float4> from = positionsOf({v, v, v, v});
     for (std::size_t i = 0; i < spokes_.size(); i += 4) {
         std::array<std::size_t, 4> spoke; // the last ones repeat where fewer than four are left
         std::array<std::uint32_t, 4> id;
@@ -218,14 +232,7 @@ void ComponentMesh::costSpokeEdges(std::uint32_t v) {
             spoke[lane] = std::min(i + lane, spokes_.size() - 1);
             id[lane] = spokes_[spoke[lane]];
         }
-        const auto half_along = [&](float Float3::*axis) {
-            const auto at = [&](std::size_t lane) {
-                return (points_[id[lane]].position.*axis - from.*axis) * 0.5f;
-            };
-            return Float4{at(0), at(1), at(2), at(3)};
-        };
-        const Vector3<Float4> half{
-            half_along(&Float3::x), half_along(&Float3::y), half_along(&Float3::z)};
+        const Vector3<Float4> half = (positionsOf(id) - from) * 0.5f;
         const QuadricOf<Float4> second = lanes({&metrics_[id[0]].quadric,
                                                 &metrics_[id[1]].quadric,
                                                 &metrics_[id[2]].quadric,

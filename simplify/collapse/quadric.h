@@ -6,12 +6,33 @@
 // floats keep their full relative precision however dense the mesh is (a quadric about the origin
 // loses the error of a fine mesh in cancellation). Source: Garland and Heckbert 1997.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 
 namespace lodestone {
 
 // Four numbers at once; the same code places one edge or four.
 using Float4 = float __attribute__((vector_size(16)));
+
+// Four floats from any address.
+inline Float4 loadFour(const void* from) {
+    Float4 four;
+    std::memcpy(&four, from, sizeof(four));
+    return four;
+}
+
+// Four rows to four columns.
+inline std::array<Float4, 4> transposed(const std::array<Float4, 4>& rows) {
+    const Float4 xy01 = __builtin_shufflevector(rows[0], rows[1], 0, 4, 1, 5);
+    const Float4 zw01 = __builtin_shufflevector(rows[0], rows[1], 2, 6, 3, 7);
+    const Float4 xy23 = __builtin_shufflevector(rows[2], rows[3], 0, 4, 1, 5);
+    const Float4 zw23 = __builtin_shufflevector(rows[2], rows[3], 2, 6, 3, 7);
+    return {__builtin_shufflevector(xy01, xy23, 0, 1, 4, 5),
+            __builtin_shufflevector(xy01, xy23, 2, 3, 6, 7),
+            __builtin_shufflevector(zw01, zw23, 0, 1, 4, 5),
+            __builtin_shufflevector(zw01, zw23, 2, 3, 6, 7)};
+}
 
 template <class T>
 struct Vector3 {
@@ -42,7 +63,8 @@ T dot(const Vector3<T>& a, const Vector3<T>& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-inline Float3 cross(Float3 a, Float3 b) {
+template <class T>
+Vector3<T> cross(const Vector3<T>& a, const Vector3<T>& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 

@@ -19,18 +19,6 @@
 
 namespace lodestone {
 
-// Four rows to four columns.
-inline std::array<Float4, 4> transposed(const std::array<Float4, 4>& rows) {
-    const Float4 xy01 = __builtin_shufflevector(rows[0], rows[1], 0, 4, 1, 5);
-    const Float4 zw01 = __builtin_shufflevector(rows[0], rows[1], 2, 6, 3, 7);
-    const Float4 xy23 = __builtin_shufflevector(rows[2], rows[3], 0, 4, 1, 5);
-    const Float4 zw23 = __builtin_shufflevector(rows[2], rows[3], 2, 6, 3, 7);
-    return {__builtin_shufflevector(xy01, xy23, 0, 1, 4, 5),
-            __builtin_shufflevector(xy01, xy23, 2, 3, 6, 7),
-            __builtin_shufflevector(zw01, zw23, 0, 1, 4, 5),
-            __builtin_shufflevector(zw01, zw23, 2, 3, 6, 7)};
-}
-
 // Adds weight * (n.x + offset)^2, x relative to the quadric's origin; n of any length.
 template <class T>
 void addSquare(QuadricOf<T>& q, const Vector3<T>& n, const T& offset, const T& weight) {
