@@ -16,6 +16,7 @@ struct GenerateOptions {
     std::string name;
     std::string output;
     std::string seed = "1";
+    std::string compress = "none";
 };
 
 std::string sampleList() {
@@ -32,6 +33,9 @@ Result<void> runGenerate(const GenerateOptions& options, const CliEnvironment& e
         return tl::unexpected<Error>(seed.error());
     if (Result<void> usable = checkOutput(options.output, exportExtensions()); !usable)
         return usable;
+    const auto compression = parseCompression(options.compress);
+    if (!compression)
+        return tl::unexpected<Error>(compression.error());
     ProgressBar bar(environment);
     bar.stage(fmt::format("make {}", options.name));
     const Result<ScenePtr> scene = generateScene(options.name, *seed);
@@ -41,7 +45,10 @@ Result<void> runGenerate(const GenerateOptions& options, const CliEnvironment& e
         return cancelled();
     bar.stage("write");
     const Result<ExportReport> report =
-        exportScene(**scene, fullLod(**scene), options.output, ExportOptions{});
+        exportScene(**scene,
+                    fullLod(**scene),
+                    options.output,
+                    {Instancing::Auto, Container::Glb, *compression});
     if (!report)
         return tl::unexpected<Error>(report.error());
     bar.finish();
@@ -67,6 +74,8 @@ void addGenerateCommand(CLI::App& app, ChosenCommand& chosen) {
         ->type_name("OUT");
     command.add_option("--seed", options->seed, "another variant of it (default 1)")
         ->type_name("N");
+    command.add_option("--compress", options->compress, "none | quantize | meshopt | draco")
+        ->type_name("HOW");
     addThreadsOption(command, chosen);
     command.callback([options, &chosen] {
         chosen.run = [options](const CliEnvironment& environment) {

@@ -25,17 +25,6 @@ struct SimplifyOptions {
     bool json = false;
 };
 
-Result<void> checkCompression(const std::string& compress) {
-    if (compress == "none")
-        return {};
-    if (compress == "quantize" || compress == "meshopt" || compress == "draco")
-        return fail(ErrorKind::Usage,
-                    fmt::format("--compress {}: this version writes uncompressed files only; use "
-                                "--compress none",
-                                compress));
-    return fail(ErrorKind::Usage, fmt::format("--compress takes none, not '{}'", compress));
-}
-
 Result<ParameterValues> parseParameters(const Algorithm& algorithm,
                                         const std::vector<std::string>& texts) {
     ParameterValues values;
@@ -63,7 +52,7 @@ Result<RunRequest> parseRequest(const SimplifyOptions& options) {
     const auto parameters = parseParameters(**algorithm, options.parameters);
     const auto ordering = parseOrdering(options.ordering);
     const auto instancing = parseInstancing(options.instancing);
-    const auto compression = checkCompression(options.compress);
+    const auto compression = parseCompression(options.compress);
     const auto output = checkOutput(options.output, exportExtensions());
     if (!target)
         return tl::unexpected<Error>(target.error());
@@ -84,6 +73,7 @@ Result<RunRequest> parseRequest(const SimplifyOptions& options) {
     request.parameters = *parameters;
     request.schedule.ordering = *ordering;
     request.export_options.instancing = *instancing;
+    request.export_options.compression = *compression;
     request.expand_first = options.scope == "expanded";
     return request;
 }
@@ -171,7 +161,12 @@ void addSimplifyCommand(CLI::App& app, ChosenCommand& chosen) {
                     options->instancing,
                     "in the file: auto (smaller) | nodes | gpu | expand")
         ->type_name("HOW");
-    command.add_option("--compress", options->compress, "none")->type_name("HOW");
+    command
+        .add_option("--compress",
+                    options->compress,
+                    "none | quantize (KHR_mesh_quantization) | meshopt "
+                    "(EXT_meshopt_compression) | draco (KHR_draco_mesh_compression)")
+        ->type_name("HOW");
     command.add_flag("--measure", options->measure, "also measure the distance from the input");
     command.add_flag("--json", options->json, "one JSON object on stdout");
     addThreadsOption(command, chosen);

@@ -68,6 +68,18 @@ Result<Instancing> parseInstancing(std::string_view text) {
     return expected("--instancing", "auto, nodes, gpu or expand", text);
 }
 
+Result<Compression> parseCompression(std::string_view text) {
+    if (text == "none")
+        return Compression::None;
+    if (text == "quantize")
+        return Compression::Quantize;
+    if (text == "meshopt")
+        return Compression::Meshopt;
+    if (text == "draco")
+        return Compression::Draco;
+    return expected("--compress", "none, quantize, meshopt or draco", text);
+}
+
 std::vector<std::string> splitList(std::string_view text, char separator) {
     std::vector<std::string> parts;
     std::size_t begin = 0;

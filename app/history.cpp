@@ -13,8 +13,7 @@ constexpr std::size_t kMaximumSteps = 200;
 bool operator==(const Edits& a, const Edits& b) {
     return a.lanes == b.lanes && a.master.kind == b.master.kind &&
            a.master.value == b.master.value && a.importance == b.importance &&
-           a.locked == b.locked && a.export_options.instancing == b.export_options.instancing &&
-           a.export_options.container == b.export_options.container;
+           a.locked == b.locked && a.export_options == b.export_options;
 }
 
 void History::record(Edits before, std::string name, DragKey drag) {

@@ -20,7 +20,7 @@ BuildKey buildKey(const ScenePtr& scene, const LaneSettings& settings) {
 }
 
 bool sameOptions(const ExportOptions& a, const ExportOptions& b) {
-    return a.instancing == b.instancing && a.container == b.container;
+    return a == b;
 }
 
 bool sameSchedule(const ScheduleOptions& a, const ScheduleOptions& b) {

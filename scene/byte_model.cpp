@@ -11,9 +11,21 @@ struct ByteModel::Impl {
         : scene(std::move(from)), expansion(options.instancing == Instancing::Expand
                                                 ? std::optional<Expansion>(planExpansion(*scene))
                                                 : std::nullopt),
-          plan(expansion ? *expansion->skeleton : *scene, options), ranges(instanceRanges(*scene)) {
+          plan(expansion ? *expansion->skeleton : *scene,
+               options,
+               planGrids(expansion ? *expansion->skeleton : *scene,
+                         options.compression,
+                         gridBounds(options))),
+          ranges(instanceRanges(*scene)) {
         if (expansion)
             findMergedParts();
+    }
+
+    // Vertices of an expanded scene are only known by their bounds.
+    std::vector<Bounds> gridBounds(const ExportOptions& options) const {
+        const bool merges = expansion && options.compression != Compression::None;
+        return submeshBounds(expansion ? *expansion->skeleton : *scene,
+                             merges ? worldBounds(*scene) : Bounds{});
     }
 
     void findMergedParts() {

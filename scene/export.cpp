@@ -2,12 +2,13 @@
 
 #include "scene/atomic_file.h"
 #include "scene/expansion.h"
+#include "scene/gltf/packed_export.h"
 #include "scene/gltf/writer.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cstring>
+#include <functional>
 #include <limits>
 
 namespace lodestone {
@@ -28,23 +29,26 @@ Result<void> writeNumbers(AtomicFile& file, std::span<const std::uint32_t> numbe
     return file.write(std::as_bytes(numbers));
 }
 
-Result<void>
-writeBuffer(AtomicFile& file, const ExportPlan& plan, const Layout& layout, const Lod& lod) {
-    Result<void> result;
-    writeBinary(plan, layout, lod, [&](std::span<const std::byte> bytes) {
-        result = file.write(bytes);
-        return result.has_value();
-    });
-    return result;
+// Document and binary of one export; the binary is made while it is written, or lies packed.
+struct Content {
+    std::string json;
+    std::uint64_t binary_bytes = 0;
+    std::function<Result<void>(AtomicFile&)> write_binary;
+};
+
+std::uint64_t paddedTo4(std::uint64_t size) {
+    return (size + 3) & ~std::uint64_t{3};
 }
 
-Result<void>
-writeGlb(const fs::path& path, const ExportPlan& plan, const Layout& layout, const Lod& lod) {
-    Result<std::string> text = exportedJson(plan, layout, lod, "");
-    if (!text)
-        return tl::unexpected(text.error());
-    text->resize((text->size() + 3) & ~std::size_t{3}, ' ');
-    const std::uint64_t bytes = exportedBytes(plan, layout);
+std::uint64_t glbBytes(const Content& content) {
+    constexpr std::uint64_t kHeaders = 12 + 8;
+    return kHeaders + paddedTo4(content.json.size()) +
+           (content.binary_bytes > 0 ? 8 + content.binary_bytes : 0);
+}
+
+Result<void> writeGlb(const fs::path& path, Content content) {
+    const std::uint64_t bytes = glbBytes(content);
+    content.json.resize(paddedTo4(content.json.size()), ' ');
     if (bytes > std::numeric_limits<std::uint32_t>::max())
         return fail(ErrorKind::Failed,
                     path.string() + ": a .glb holds at most 4 GiB; write a .gltf instead");
@@ -52,25 +56,22 @@ writeGlb(const fs::path& path, const ExportPlan& plan, const Layout& layout, con
     if (!file)
         return tl::unexpected(file.error());
     const auto total = static_cast<std::uint32_t>(bytes);
-    const auto json_bytes = static_cast<std::uint32_t>(text->size());
+    const auto json_bytes = static_cast<std::uint32_t>(content.json.size());
     Result<void> done =
         writeNumbers(*file, std::array{kGlbMagic, 2U, total, json_bytes, kJsonChunk}).and_then([&] {
-            return file->write(bytesOf(*text));
+            return file->write(bytesOf(content.json));
         });
-    if (done && layout.binary_bytes > 0)
-        done = writeNumbers(
-                   *file, std::array{static_cast<std::uint32_t>(layout.binary_bytes), kBinaryChunk})
-                   .and_then([&] { return writeBuffer(*file, plan, layout, lod); });
+    if (done && content.binary_bytes > 0)
+        done =
+            writeNumbers(*file,
+                         std::array{static_cast<std::uint32_t>(content.binary_bytes), kBinaryChunk})
+                .and_then([&] { return content.write_binary(*file); });
     return done.and_then([&] { return file->commit(); });
 }
 
 // Images first, then the buffer, the .gltf that refers to them last.
 Result<void>
-writeGltf(const fs::path& path, const ExportPlan& plan, const Layout& layout, const Lod& lod) {
-    const std::string buffer_name = bufferFileName(path);
-    Result<std::string> text = exportedJson(plan, layout, lod, buffer_name);
-    if (!text)
-        return tl::unexpected(text.error());
+writeGltf(const fs::path& path, std::span<const ImageFile> images, const Content& content) {
     std::vector<AtomicFile> files;
     const auto add = [&](const fs::path& target, const auto& write) -> Result<void> {
         Result<AtomicFile> file = AtomicFile::create(target);
@@ -80,7 +81,7 @@ writeGltf(const fs::path& path, const ExportPlan& plan, const Layout& layout, co
         return write(files.back());
     };
     Result<void> done;
-    for (const ImageFile& image : plan.image_files) {
+    for (const ImageFile& image : images) {
         const fs::path target = path.parent_path() / image.path;
         std::error_code error;
         if (image.path.has_parent_path())
@@ -88,11 +89,10 @@ writeGltf(const fs::path& path, const ExportPlan& plan, const Layout& layout, co
         if (done)
             done = add(target, [&](AtomicFile& file) { return file.write(*image.bytes); });
     }
-    if (done && layout.binary_bytes > 0)
-        done = add(path.parent_path() / buffer_name,
-                   [&](AtomicFile& file) { return writeBuffer(file, plan, layout, lod); });
+    if (done && content.binary_bytes > 0)
+        done = add(path.parent_path() / bufferFileName(path), content.write_binary);
     if (done)
-        done = add(path, [&](AtomicFile& file) { return file.write(bytesOf(*text)); });
+        done = add(path, [&](AtomicFile& file) { return file.write(bytesOf(content.json)); });
     for (AtomicFile& file : files)
         if (done)
             done = file.commit();
@@ -109,9 +109,18 @@ bool isGltfPath(const fs::path& path, Container fallback) {
     return extension != ".glb" && fallback == Container::Gltf;
 }
 
+// All files.
+std::uint64_t bytesOf(const ExportPlan& plan, const Content& content) {
+    if (plan.options.container == Container::Glb)
+        return glbBytes(content);
+    std::uint64_t bytes = content.json.size() + content.binary_bytes;
+    for (const ImageFile& image : plan.image_files)
+        bytes += image.bytes->size();
+    return bytes;
+}
+
 ExportReport reportOf(const ExportPlan& plan, const Layout& layout, const LodShape& shape) {
     ExportReport report;
-    report.bytes = exportedBytes(plan, layout);
     report.notes = plan.notes;
     std::uint64_t dropped_names = 0;
     for (std::size_t s = 0; s < plan.submeshes.size(); ++s) {
@@ -140,16 +149,70 @@ struct Target {
     ExportOptions options;
 };
 
-Result<ExportReport>
-writeScene(const Scene& scene, const Lod& lod, const LodShape& shape, const Target& target) {
-    const ExportPlan plan(scene, target.options);
+// plan, layout and lod must outlive the content.
+Result<Content>
+contentOf(const ExportPlan& plan, const Layout& layout, const Lod& lod, const fs::path& path) {
+    if (isEstimated(plan.options)) {
+        Result<PackedDocument> packed = packedExport(plan, layout, lod, bufferFileName(path));
+        if (!packed)
+            return tl::unexpected(packed.error());
+        const auto binary =
+            std::make_shared<const std::vector<std::byte>>(std::move(packed->binary));
+        return Content{dumpJson(packed->json), binary->size(), [binary](AtomicFile& file) {
+                           return file.write(*binary);
+                       }};
+    }
+    Result<std::string> text = exportedJson(plan, layout, lod, bufferFileName(path));
+    if (!text)
+        return tl::unexpected(text.error());
+    return Content{std::move(*text), layout.binary_bytes, [&](AtomicFile& file) {
+                       Result<void> result;
+                       writeBinary(plan, layout, lod, [&](std::span<const std::byte> bytes) {
+                           result = file.write(bytes);
+                           return result.has_value();
+                       });
+                       return result;
+                   }};
+}
+
+// Bounds of every submesh of the scene, wider where the LOD leaves the grid they give.
+std::vector<PositionGrid>
+gridsFor(const Scene& scene, const Lod& lod, const ExportOptions& options, const Bounds& merged) {
+    std::vector<Bounds> bounds = submeshBounds(scene, merged);
+    std::vector<PositionGrid> grids = planGrids(scene, options.compression, bounds);
+    bool leaves = false;
+    for (std::size_t s = 0; s < grids.size(); ++s) {
+        Bounds reached;
+        for (const GeometryPtr& geometry : lod.submeshes[s].primitives)
+            for (const glm::vec3& position : geometry->positions)
+                reached.add(glm::dvec3(position));
+        if (covers(grids[s], reached))
+            continue;
+        bounds[s].add(reached.min);
+        bounds[s].add(reached.max);
+        leaves = true;
+    }
+    return leaves ? planGrids(scene, options.compression, bounds) : grids;
+}
+
+Result<ExportReport> writeScene(const Scene& scene,
+                                const Lod& lod,
+                                const LodShape& shape,
+                                const Target& target,
+                                const Bounds& merged = {}) {
+    const ExportPlan plan(scene, target.options, gridsFor(scene, lod, target.options, merged));
     const Layout layout = chooseLayout(plan, shape);
+    const Result<Content> content = contentOf(plan, layout, lod, target.path);
+    if (!content)
+        return tl::unexpected(content.error());
     const Result<void> done = target.options.container == Container::Gltf
-                                  ? writeGltf(target.path, plan, layout, lod)
-                                  : writeGlb(target.path, plan, layout, lod);
+                                  ? writeGltf(target.path, plan.image_files, *content)
+                                  : writeGlb(target.path, *content);
     if (!done)
         return tl::unexpected(done.error());
-    return reportOf(plan, layout, shape);
+    ExportReport report = reportOf(plan, layout, shape);
+    report.bytes = bytesOf(plan, *content);
+    return report;
 }
 
 } // namespace
@@ -167,7 +230,8 @@ Result<ExportReport> exportScene(const Scene& scene,
     if (!expanded)
         return tl::unexpected(expanded.error());
     const LodShape shape = expandShape(expansion, scene, shapeOf(scene, lod));
-    return writeScene(*expansion.skeleton, *expanded, shape, {path, used});
+    const Bounds merged = used.compression == Compression::None ? Bounds{} : worldBounds(scene);
+    return writeScene(*expansion.skeleton, *expanded, shape, {path, used}, merged);
 }
 
 } // namespace lodestone

@@ -16,10 +16,25 @@ enum class Instancing : std::uint8_t {
 
 enum class Container : std::uint8_t { Glb, Gltf }; // Gltf: .gltf + .bin + images
 
+enum class Compression : std::uint8_t {
+    None,     // floats as they are; rotations of instances in 16 bits where that moves nothing
+    Quantize, // KHR_mesh_quantization: positions in 16 bits, directions in 8
+    Meshopt,  // quantised and packed by EXT_meshopt_compression, instances too
+    Draco,    // KHR_draco_mesh_compression
+};
+
 struct ExportOptions {
     Instancing instancing = Instancing::Auto;
     Container container = Container::Glb;
+    Compression compression = Compression::None;
+
+    bool operator==(const ExportOptions&) const = default;
 };
+
+// Whether a size is only known for sure once the LOD is packed.
+constexpr bool isEstimated(const ExportOptions& options) {
+    return options.compression == Compression::Meshopt || options.compression == Compression::Draco;
+}
 
 struct ExportReport {
     std::uint64_t bytes = 0; // all files written
@@ -28,8 +43,9 @@ struct ExportReport {
     std::vector<std::string> notes; // dropped node names, left-out parts
 };
 
-// Predicts, exactly and without writing, what exportScene would write. Prepared once for a scene
-// and options; bytes() is O(primitives) for GPU instancing, O(nodes) otherwise. Thread-safe.
+// Predicts without writing what exportScene would write. Prepared once for a scene and options
+// (Meshopt and Draco: packs the scene at several levels to learn its rates); bytes() is
+// O(primitives) for GPU instancing, O(nodes) otherwise. Thread-safe.
 class ByteModel {
 public:
     ByteModel(ScenePtr scene, const ExportOptions& options);
@@ -37,7 +53,7 @@ public:
     ByteModel(ByteModel&&) noexcept;
     ByteModel& operator=(ByteModel&&) noexcept;
 
-    std::uint64_t bytes(const LodShape& shape) const;
+    std::uint64_t bytes(const LodShape& shape) const; // within 10 % where isEstimated(options)
 
     // Fixed rates for orderings per byte; 16 -> 32-bit index jumps left out.
     double bytesPerVertex(std::uint32_t submesh, std::uint32_t primitive) const;

@@ -68,7 +68,40 @@ std::string_view instancingHelp(Instancing instancing) {
     return {};
 }
 
-// One way to write instances, with its exact size at the right.
+constexpr std::array kCompressions = {
+    Compression::None, Compression::Quantize, Compression::Meshopt, Compression::Draco};
+
+std::string compressionName(Compression compression) {
+    switch (compression) {
+    case Compression::None:
+        return "none";
+    case Compression::Quantize:
+        return "quantised (KHR_mesh_quantization)";
+    case Compression::Meshopt:
+        return "meshopt (EXT_meshopt_compression)";
+    case Compression::Draco:
+        return "Draco (KHR_draco_mesh_compression)";
+    }
+    return {};
+}
+
+void compressionCombo(const Ui& ui, const PanelInput& input) {
+    ExportOptions options = input.document.export_options;
+    std::vector<std::string> names;
+    for (const Compression compression : kCompressions)
+        names.push_back(compressionName(compression));
+    const auto selected = std::ranges::find(kCompressions, options.compression);
+    if (const auto chosen =
+            combo(ui, "Compression", names, static_cast<int>(selected - kCompressions.begin()))) {
+        options.compression = kCompressions[static_cast<std::size_t>(*chosen)];
+        ui.push(SetExportOptions{options});
+    }
+    tooltip(ui,
+            "Sizes of meshopt and Draco files are estimates (~) until the file is written. Images "
+            "are stored as they are.");
+}
+
+// One way to write instances, with its size at the right.
 void instancingRow(
     const Ui& ui, const PanelInput& input, LaneId lane, Instancing instancing, float width) {
     ExportOptions options = input.document.export_options;
@@ -100,17 +133,18 @@ void instancingRow(
              instancingHelp(instancing),
              {nullptr, color::kSecondary});
     const std::uint64_t size_bytes = input.session.predictedBytes(lane, options);
+    const std::string about = isEstimated(options) ? "~" : "";
     const float right = begin.x + width - ui.px(10);
     drawText(ui,
              {right, y},
              Align::Right,
-             size_bytes > 0 ? formatCount(size_bytes) + " B" : std::string(kUnknown),
+             size_bytes > 0 ? about + formatCount(size_bytes) + " B" : std::string(kUnknown),
              {nullptr, color::kSecondary});
     if (size_bytes > 0)
         drawText(ui,
                  {right - ui.px(110), y},
                  Align::Right,
-                 formatBytes(size_bytes),
+                 about + formatBytes(size_bytes),
                  {ui.theme.fonts.semibold});
 }
 
@@ -151,6 +185,8 @@ void drawExport(const Ui& ui, const PanelInput& input, WindowState& state) {
     sectionTitle(ui, "Instances as");
     for (const Instancing instancing : kInstancings)
         instancingRow(ui, input, lane->id, instancing, width);
+    ImGui::Dummy({0, ui.px(6)});
+    compressionCombo(ui, input);
     ImGui::Dummy({0, ui.px(6)});
     sectionTitle(ui, "File (.glb or .gltf)");
     if (std::exchange(form.focus_path, false))

@@ -95,28 +95,23 @@ json headOf(const json& document) {
     return head;
 }
 
-// Whether some attribute has a type that core glTF does not allow.
-bool isQuantized(const Attribute& attribute) {
-    if (attribute.type == ComponentType::Float32)
+// Whether core glTF does not allow the type.
+bool isQuantized(std::string_view semantic, const StoredType& stored) {
+    if (stored.type == ComponentType::Float32)
         return false;
-    const std::string_view semantic = attribute.semantic;
     const bool is_unsigned =
-        attribute.type == ComponentType::UInt8 || attribute.type == ComponentType::UInt16;
-    if (semantic.starts_with("TEXCOORD_"))
-        return !is_unsigned || !attribute.normalized;
-    return semantic == "POSITION" || semantic == "NORMAL" || semantic == "TANGENT";
+        stored.type == ComponentType::UInt8 || stored.type == ComponentType::UInt16;
+    if (semantic.starts_with("\"TEXCOORD_"))
+        return !is_unsigned || !stored.normalized;
+    return semantic == "\"POSITION\":" || semantic == "\"NORMAL\":" || semantic == "\"TANGENT\":";
 }
 
-bool needsQuantization(const Scene& scene) {
-    for (const Submesh& submesh : scene.submeshes)
-        for (const Primitive& primitive : submesh.primitives) {
-            if (primitive.position_type != ComponentType::Float32 ||
-                std::ranges::any_of(primitive.geometry->attributes, isQuantized))
-                return true;
-            for (const MorphTarget& target : primitive.geometry->morph_targets)
-                if (std::ranges::any_of(target.attributes, isQuantized))
+bool needsQuantization(const ExportPlan& plan) {
+    for (const MeshPlan& mesh : plan.meshes)
+        for (const PrimitivePlan& primitive : mesh.primitives)
+            for (const StreamPlan& stream : primitive.streams)
+                if (isQuantized(stream.key, stream.stored))
                     return true;
-        }
     return false;
 }
 
@@ -127,10 +122,14 @@ void addName(std::vector<std::string>& names, const std::string& name) {
 
 } // namespace
 
-ExportPlan::ExportPlan(const Scene& from, const ExportOptions& with)
-    : scene(from), options(with), carried(*from.source) {
+ExportPlan::ExportPlan(const Scene& from,
+                       const ExportOptions& with,
+                       std::vector<PositionGrid> of_submeshes)
+    : scene(from), options(with), grids(std::move(of_submeshes)), diagonal(boxDiagonal(from)),
+      carried(*from.source) {
     json document = scene.source->json;
     const std::set<std::uint32_t> wanted = rewriteReferences(document, carried);
+    drawn_by = applyGrids(document, scene, grids, wanted);
     planImages(*this, document);
     planMeshes(*this, document);
     planNodes(*this, document, wanted);
@@ -138,7 +137,7 @@ ExportPlan::ExportPlan(const Scene& from, const ExportOptions& with)
     estimateInstances(*this);
     extensions_used = extensionList(document, "extensionsUsed");
     extensions_required = extensionList(document, "extensionsRequired");
-    if (needsQuantization(scene)) {
+    if (needsQuantization(*this)) {
         addName(extensions_used, "KHR_mesh_quantization");
         addName(extensions_required, "KHR_mesh_quantization");
     }

@@ -4,6 +4,7 @@
 // number of threads.
 #include "scene/export.h"
 #include "scene/gltf/json_sink.h"
+#include "scene/gltf/quantization.h"
 #include "scene/gltf/writer_carried.h"
 
 namespace lodestone {
@@ -19,6 +20,7 @@ struct StreamPlan {
     std::string format;           // "componentType":5126,"type":"VEC3"
     std::uint32_t attribute = 0;  // in the geometry's or the target's attributes; kNone: positions
     std::uint32_t target = kNone; // morph target it belongs to
+    StoredType stored;
     std::uint32_t view_class = 0;
     std::uint32_t content = 0; // streams of equal content hold equal bytes in the unchanged scene
     std::uint32_t component_count = 0;
@@ -100,10 +102,14 @@ struct ImageFile {
 };
 
 struct ExportPlan {
-    ExportPlan(const Scene& scene, const ExportOptions& options);
+    // grids: as made by planGrids().
+    ExportPlan(const Scene& scene, const ExportOptions& options, std::vector<PositionGrid> grids);
 
     const Scene& scene;
     ExportOptions options;
+    std::vector<PositionGrid> grids;     // [scene.submeshes]
+    double diagonal = 0.0;               // of the scene, as by boxDiagonal()
+    std::vector<std::uint32_t> drawn_by; // [source nodes] in nodes: what draws the node's mesh
     CarriedData carried;
     Fragment head; // asset, materials, animations, ...: members, comma separated
     std::vector<std::string> extensions_used;

@@ -24,16 +24,22 @@ const Attribute& attributeOf(const StreamPlan& stream, const Geometry& geometry)
                : geometry.morph_targets[stream.target].attributes[stream.attribute];
 }
 
-// Positions on the grid of the type that the file stores.
-Attribute quantized(const Primitive& primitive, const Geometry& geometry) {
+// Positions as the file stores them; not for floats.
+Attribute
+storedPositions(const ExportPlan& plan, const AccessorLayout& accessor, const Geometry& geometry) {
+    const PositionGrid& grid = plan.grids[accessor.submesh];
     Attribute attribute;
-    attribute.type = primitive.position_type;
-    attribute.normalized = primitive.position_normalized;
+    attribute.type = accessor.stream->stored.type;
+    attribute.normalized = accessor.stream->stored.normalized;
     attribute.components = 3;
     attribute.bytes.resize(geometry.positions.size() * attribute.stride());
     for (std::size_t v = 0; v < geometry.positions.size(); ++v)
-        for (int c = 0; c < 3; ++c)
-            setAttributeValue(attribute, v, static_cast<std::size_t>(c), geometry.positions[v][c]);
+        for (int c = 0; c < 3; ++c) {
+            double value = static_cast<double>(geometry.positions[v][c]);
+            if (grid.step > 0.0)
+                value = (value - grid.offset[c]) / grid.step;
+            setAttributeValue(attribute, v, static_cast<std::size_t>(c), static_cast<float>(value));
+        }
     return attribute;
 }
 
@@ -174,16 +180,16 @@ AccessorBounds boundsOf(const ExportPlan& plan, const AccessorLayout& accessor, 
     if (accessor.stream == nullptr || accessor.stream->bounds_width == 0)
         return {};
     const Geometry& geometry = geometryOf(accessor, lod);
+    const StoredType& stored = accessor.stream->stored;
     if (accessor.stream->attribute != kNone) {
-        const Attribute& attribute = attributeOf(*accessor.stream, geometry);
+        const Attribute attribute =
+            storedAttribute(attributeOf(*accessor.stream, geometry), stored);
         return boundsOfBytes(attribute.bytes, attribute.type, attribute.components);
     }
-    const Primitive& primitive =
-        plan.scene.submeshes[accessor.submesh].primitives[accessor.primitive];
-    if (primitive.position_type == ComponentType::Float32)
+    if (stored.type == ComponentType::Float32)
         return boundsOfBytes(
             std::as_bytes(std::span(geometry.positions)), ComponentType::Float32, 3);
-    return boundsOfBytes(quantized(primitive, geometry).bytes, primitive.position_type, 3);
+    return boundsOfBytes(storedPositions(plan, accessor, geometry).bytes, stored.type, 3);
 }
 
 std::vector<std::byte>
@@ -191,23 +197,23 @@ accessorBytes(const ExportPlan& plan, const AccessorLayout& accessor, const Lod&
     const Geometry& geometry = geometryOf(accessor, lod);
     if (accessor.stream == nullptr)
         return indexBytes(accessor, geometry);
-    const Primitive& primitive =
-        plan.scene.submeshes[accessor.submesh].primitives[accessor.primitive];
+    const StoredType& stored = accessor.stream->stored;
     if (accessor.stream->attribute == kNone) {
-        if (primitive.position_type == ComponentType::Float32)
+        if (stored.type == ComponentType::Float32)
             return padElements(std::as_bytes(std::span(geometry.positions)), sizeof(glm::vec3));
-        const Attribute attribute = quantized(primitive, geometry);
+        const Attribute attribute = storedPositions(plan, accessor, geometry);
         return padElements(attribute.bytes, attribute.stride());
     }
+    const Primitive& primitive =
+        plan.scene.submeshes[accessor.submesh].primitives[accessor.primitive];
     const Attribute& attribute = attributeOf(*accessor.stream, geometry);
     const bool simplified = primitive.geometry.get() != &geometry;
     const bool weighs =
         accessor.stream->target == kNone && attribute.semantic.starts_with("WEIGHTS_");
-    std::vector<std::byte> bytes =
-        simplified && weighs
-            ? padElements(normalizedWeights(geometry, attribute).bytes, attribute.stride())
-            : padElements(attribute.bytes, attribute.stride());
-    if (attribute.type == ComponentType::Float32)
+    const Attribute written = simplified && weighs ? normalizedWeights(geometry, attribute)
+                                                   : storedAttribute(attribute, stored);
+    std::vector<std::byte> bytes = padElements(written.bytes, written.stride());
+    if (written.type == ComponentType::Float32)
         replaceNotFinite(bytes);
     return bytes;
 }

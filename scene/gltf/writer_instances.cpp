@@ -1,7 +1,7 @@
 #include "scene/gltf/writer_instances.h"
 
+#include "scene/gltf/instance_rows.h"
 #include "scene/gltf/writer_references.h"
-#include "scene/scene_builder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,16 +20,10 @@ constexpr double kGroupNodeBytes = 60.0;
 constexpr double kGroupAccessorBytes = 115.0;
 // A node costs its text, its mesh, its braces and its number in the parent's list.
 constexpr double kNodeExtraBytes = 22.0;
+// Share of the scene's diagonal that a rounded rotation may move a point by.
+constexpr double kRotationTolerance = 0x1p-18;
 // Below this many rows a group inside a moving parent is not worth its node.
 constexpr std::uint32_t kFewestRows = 4;
-
-template <class T>
-std::vector<std::byte> toBytes(const std::vector<T>& values) {
-    std::vector<std::byte> bytes(values.size() * sizeof(T));
-    if (!bytes.empty())
-        std::memcpy(bytes.data(), values.data(), bytes.size());
-    return bytes;
-}
 
 std::string floatText(double value) {
     return fixedWidthNumber(static_cast<float>(value), 0);
@@ -45,6 +39,9 @@ public:
         if (plan_.options.instancing == Instancing::Auto ||
             plan_.options.instancing == Instancing::Gpu)
             planFolds();
+        if (plan_.options.compression == Compression::Meshopt)
+            for (std::uint32_t g = 0; g < plan_.groups.size(); ++g)
+                sortRows(g);
     }
 
     // Nodes that are not in the file and hang below no node.
@@ -62,7 +59,7 @@ private:
         for (std::uint32_t i = 0; i < scene_.instances.size(); ++i) {
             const Instance& instance = scene_.instances[i];
             InstancePlan& to = plan_.instances[i];
-            to.node = planOf(instance.node);
+            to.node = plan_.drawn_by[planOf(instance.node)];
             if (instance.gpu_index == kNone)
                 continue;
             if (plan_.options.instancing == Instancing::Nodes) {
@@ -90,13 +87,19 @@ private:
         plan_.groups.push_back(std::move(group));
     }
 
-    // The group's rows are known.
+    // The group's rows are known. Without a grid they stay as the file has them.
     void fillFileGroup(GroupPlan& group, std::uint32_t scene_node) {
         const json& entry = document_["nodes"][planOf(scene_node)];
+        const bool regrids = plan_.grids[group.submesh].step > 0.0;
+        std::vector<RowColumn> columns;
         for (const auto& [name, number] :
              entry["extensions"][kGpuInstancing]["attributes"].items()) {
             const json& accessor = scene_.source->json["accessors"][number.get<std::size_t>()];
             PackedElements packed = resolvedElements(*scene_.source, accessor, group.rows);
+            if (regrids && (name == "TRANSLATION" || name == "ROTATION" || name == "SCALE")) {
+                columns.push_back({name, asAttribute(accessor, std::move(packed))});
+                continue;
+            }
             GroupAttribute attribute;
             attribute.key = dumpJson(name) + ":";
             json format = json::object();
@@ -108,16 +111,51 @@ private:
             attribute.bytes = std::move(packed.bytes);
             group.attributes.push_back(std::move(attribute));
         }
+        if (!regrids)
+            return;
+        std::vector<Trs> rows = rowTransforms(columns, group.rows);
+        for (Trs& row : rows)
+            row = composed(row, plan_.grids[group.submesh]);
+        std::vector<GroupAttribute> transforms = rowAttributes(rows, reachOf(group.submesh));
+        group.attributes.insert(group.attributes.end(),
+                                std::make_move_iterator(transforms.begin()),
+                                std::make_move_iterator(transforms.end()));
+    }
+
+    static Attribute asAttribute(const json& accessor, PackedElements packed) {
+        Attribute attribute;
+        attribute.type = static_cast<ComponentType>(accessor["componentType"].get<int>());
+        attribute.components = accessor["type"] == "VEC4" ? 4 : 3;
+        attribute.normalized = accessor.value("normalized", false);
+        attribute.bytes = std::move(packed.bytes);
+        return attribute;
+    }
+
+    static Trs composed(const Trs& row, const PositionGrid& grid) {
+        return {row.translation + row.rotation * (row.scale * grid.offset),
+                row.rotation,
+                row.scale * grid.step};
+    }
+
+    // What rotations of the submesh's rows may move; a row's scale holds the grid's step.
+    RowReach reachOf(std::uint32_t submesh) const {
+        const PositionGrid& grid = plan_.grids[submesh];
+        const Bounds box = localBounds(scene_.submeshes[submesh]);
+        const glm::dvec3 far =
+            glm::max(glm::abs(box.min - grid.offset), glm::abs(box.max - grid.offset));
+        return {glm::length(far) / (grid.step > 0.0 ? grid.step : 1.0),
+                plan_.diagonal * kRotationTolerance};
     }
 
     // A row as a node of its own, below the node that held it.
     std::uint32_t addRowNode(const Instance& instance) {
         const Node& holder = scene_.nodes[instance.node];
         NodePlan node;
-        glm::dmat4 local = glm::inverse(holder.world) * instance.transform;
+        const glm::dmat4 world = worldOf(instance);
+        glm::dmat4 local = glm::inverse(holder.world) * world;
         node.parent = planOf(instance.node);
         if (!std::isfinite(local[0][0]) || glm::determinant(holder.world) == 0.0) {
-            local = instance.transform;
+            local = world;
             node.parent = kNone;
         }
         node.mesh = plan_.submeshes[instance.submesh].mesh;
@@ -158,18 +196,24 @@ private:
         Trs trs;
     };
 
+    // Of what is stored, in the world.
+    glm::dmat4 worldOf(const Instance& instance) const {
+        const PositionGrid& grid = plan_.grids[instance.submesh];
+        return grid.step > 0.0 ? instance.transform * gridMatrix(grid) : instance.transform;
+    }
+
     bool findPlace(std::uint32_t i, Place& place) const {
         const Instance& instance = scene_.instances[i];
         const Node& node = scene_.nodes[instance.node];
         const std::uint32_t node_plan = planOf(instance.node);
         if (!node.foldable || instance.gpu_index != kNone || plan_.nodes[node_plan].always)
             return false;
-        if (!node.animated && decompose(instance.transform, place.trs))
+        if (!node.animated && decompose(worldOf(instance), place.trs))
             return true;
         if (node.parent == kNone)
             return false;
         place.parent = planOf(node.parent);
-        return decompose(glm::inverse(scene_.nodes[node.parent].world) * instance.transform,
+        return decompose(glm::inverse(scene_.nodes[node.parent].world) * worldOf(instance),
                          place.trs);
     }
 
@@ -201,7 +245,7 @@ private:
         group.node = static_cast<std::uint32_t>(plan_.nodes.size());
         group.rows = static_cast<std::uint32_t>(members.size());
         group.folded = true;
-        group.attributes = foldAttributes(transforms);
+        group.attributes = rowAttributes(transforms, reachOf(submesh));
         NodePlan node;
         node.parent = parent;
         node.mesh = plan_.submeshes[submesh].mesh;
@@ -218,30 +262,34 @@ private:
         plan_.groups.push_back(std::move(group));
     }
 
-    // Rotations and scales are left out where all of them are the identity.
-    static std::vector<GroupAttribute> foldAttributes(const std::vector<Trs>& transforms) {
-        std::vector<glm::vec4> rotations;
-        std::vector<glm::vec3> scales;
-        std::vector<glm::vec3> translations;
-        for (const Trs& trs : transforms) {
-            const glm::dquat& q = trs.rotation;
-            rotations.emplace_back(q.x, q.y, q.z, q.w);
-            scales.emplace_back(trs.scale);
-            translations.emplace_back(trs.translation);
+    // Rows in an order that packs well.
+    void sortRows(std::uint32_t g) {
+        GroupPlan& group = plan_.groups[g];
+        const auto found = std::ranges::find(
+            group.attributes, std::string("\"TRANSLATION\":"), &GroupAttribute::key);
+        if (found == group.attributes.end() || found->row_bytes != sizeof(glm::vec3))
+            return;
+        std::vector<glm::dvec3> translations;
+        for (std::size_t row = 0; row < group.rows; ++row) {
+            glm::vec3 at;
+            std::memcpy(&at, found->bytes.data() + row * sizeof at, sizeof at);
+            translations.emplace_back(at);
         }
-        const auto isTurn = [](const glm::vec4& q) { return q != glm::vec4(0, 0, 0, 1); };
-        const auto isScale = [](const glm::vec3& s) { return s != glm::vec3(1.0f); };
-        const std::string vec3 = "\"componentType\":5126,\"type\":\"VEC3\"";
-        std::vector<GroupAttribute> attributes;
-        attributes.push_back({"\"TRANSLATION\":", vec3, 12, toBytes(translations)});
-        if (std::ranges::any_of(rotations, isTurn))
-            attributes.push_back({"\"ROTATION\":",
-                                  "\"componentType\":5126,\"type\":\"VEC4\"",
-                                  16,
-                                  toBytes(rotations)});
-        if (std::ranges::any_of(scales, isScale))
-            attributes.push_back({"\"SCALE\":", vec3, 12, toBytes(scales)});
-        return attributes;
+        const std::vector<std::uint32_t> order = mortonOrder(translations);
+        for (GroupAttribute& attribute : group.attributes) {
+            const std::vector<std::byte> old = attribute.bytes;
+            for (std::size_t to = 0; to < order.size(); ++to)
+                std::memcpy(attribute.bytes.data() + to * attribute.row_bytes,
+                            old.data() + order[to] * attribute.row_bytes,
+                            attribute.row_bytes);
+        }
+        std::vector<std::uint32_t> place(order.size());
+        for (std::uint32_t to = 0; to < order.size(); ++to)
+            place[order[to]] = to;
+        const InstanceRange range = plan_.submeshes[group.submesh].range;
+        for (std::uint32_t i = range.begin; i < range.end; ++i)
+            if (plan_.instances[i].group == g)
+                plan_.instances[i].row = place[plan_.instances[i].row];
     }
 
     ExportPlan& plan_;

@@ -73,9 +73,10 @@ std::string accessorType(std::uint32_t components) {
     }
 }
 
-std::string formatOf(ComponentType type, std::uint32_t components, bool normalized) {
-    json format{{"componentType", static_cast<int>(type)}, {"type", accessorType(components)}};
-    if (normalized)
+std::string formatOf(const StoredType& stored, std::uint32_t components) {
+    json format{{"componentType", static_cast<int>(stored.type)},
+                {"type", accessorType(components)}};
+    if (stored.normalized)
         format["normalized"] = true;
     return dumpMembers(format);
 }
@@ -154,17 +155,18 @@ private:
         entry.erase("primitives");
         mesh.rest = Fragment(dumpMembers(entry));
         for (std::size_t p = 0; p < submesh.primitives.size(); ++p)
-            mesh.primitives.push_back(planPrimitive(submesh.primitives[p], primitives[p]));
+            mesh.primitives.push_back(
+                planPrimitive(submesh.primitives[p], primitives[p], plan_.grids[mesh.submesh]));
     }
 
-    PrimitivePlan planPrimitive(const Primitive& primitive, json& entry) {
+    PrimitivePlan planPrimitive(const Primitive& primitive, json& entry, const PositionGrid& grid) {
         PrimitivePlan to;
         const Geometry& geometry = *primitive.geometry;
         to.full = {static_cast<std::uint32_t>(geometry.positions.size()),
                    static_cast<std::uint32_t>(geometry.indices.size())};
         to.indexed = primitive.mode == PrimitiveMode::Triangles || to.full.indices > 0;
         const json& attributes = memberOrNull(entry, "attributes");
-        addPositions(to, primitive, numberAt(attributes, "POSITION"));
+        addPositions(to, primitive, numberAt(attributes, "POSITION"), grid);
         for (std::uint32_t a = 0; a < geometry.attributes.size(); ++a)
             addAttribute(to, geometry.attributes[a], {attributes, a, kNone});
         const json& targets = memberOrNull(entry, "targets");
@@ -184,16 +186,27 @@ private:
         return to;
     }
 
-    void addPositions(PrimitivePlan& to, const Primitive& primitive, std::uint32_t accessor) {
+    void addPositions(PrimitivePlan& to,
+                      const Primitive& primitive,
+                      std::uint32_t accessor,
+                      const PositionGrid& grid) {
         StreamPlan stream;
         stream.key = "\"POSITION\":";
-        stream.format = formatOf(primitive.position_type, 3, primitive.position_normalized);
+        stream.stored = {primitive.position_type, primitive.position_normalized};
+        std::string kind = "p";
+        if (grid.step > 0.0) {
+            stream.stored = {ComponentType::Int16, false};
+            kind += dumpJson(json{grid.step, grid.offset.x, grid.offset.y, grid.offset.z});
+        }
+        stream.format = formatOf(stream.stored, 3);
         stream.attribute = kPositions;
-        stream.view_class = classOfStride(plan_, 3 * byteSize(primitive.position_type));
+        stream.view_class = classOfStride(plan_, 3 * byteSize(stream.stored.type));
         stream.component_count = 3;
-        stream.bounds_width = numberWidth(primitive.position_type);
-        stream.content = contents_.numberOf(
-            accessor, "p" + stream.format, std::as_bytes(std::span(primitive.geometry->positions)));
+        stream.bounds_width = numberWidth(stream.stored.type);
+        stream.content =
+            contents_.numberOf(accessor,
+                               kind + stream.format,
+                               std::as_bytes(std::span(primitive.geometry->positions)));
         to.streams.push_back(std::move(stream));
     }
 
@@ -207,13 +220,16 @@ private:
     void addAttribute(PrimitivePlan& to, const Attribute& attribute, const Origin& origin) {
         StreamPlan stream;
         stream.key = dumpJson(attribute.semantic) + ":";
-        stream.format = formatOf(attribute.type, attribute.components, attribute.normalized);
+        stream.stored = origin.target == kNone ? storedType(attribute, plan_.options.compression)
+                                               : StoredType{attribute.type, attribute.normalized};
+        stream.format = formatOf(stream.stored, attribute.components);
         stream.attribute = origin.index;
         stream.target = origin.target;
-        stream.view_class = classOfStride(plan_, attribute.stride());
+        stream.view_class =
+            classOfStride(plan_, attribute.components * byteSize(stream.stored.type));
         stream.component_count = attribute.components;
         const bool bounded = attribute.semantic == "POSITION";
-        stream.bounds_width = bounded ? numberWidth(attribute.type) : 0;
+        stream.bounds_width = bounded ? numberWidth(stream.stored.type) : 0;
         stream.content = contents_.numberOf(numberAt(origin.accessors, attribute.semantic),
                                             (bounded ? "p" : "a") + stream.format,
                                             attribute.bytes);

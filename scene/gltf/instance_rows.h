@@ -1,0 +1,31 @@
+#pragma once
+// Rows of EXT_mesh_gpu_instancing: transforms as accessors store them.
+#include "scene/gltf/export_plan.h"
+#include "scene/scene_builder.h"
+
+namespace lodestone {
+
+// What a rotation may move.
+struct RowReach {
+    double distance = 0.0;  // of the mesh's farthest point from its origin, before the row's scale
+    double tolerance = 0.0; // in the row's space
+};
+
+// TRANSLATION, ROTATION and SCALE of the rows. Rotations and scales are left out where all of them
+// are the identity. Rotations are normalised 16-bit integers where no point moves by more than the
+// tolerance (their angle is off by 4e-5 rad at most), floats otherwise.
+std::vector<GroupAttribute> rowAttributes(std::span<const Trs> rows, const RowReach& reach);
+
+// TRANSLATION, ROTATION and SCALE by name, as floats or normalised integers of the same row count.
+struct RowColumn {
+    std::string name;
+    Attribute values;
+};
+
+std::vector<Trs> rowTransforms(std::span<const RowColumn> columns, std::size_t row_count);
+
+// The order of the rows along a Morton curve through their translations: neighbours in the list
+// are neighbours in space. Ties keep their order.
+std::vector<std::uint32_t> mortonOrder(std::span<const glm::dvec3> translations);
+
+} // namespace lodestone
