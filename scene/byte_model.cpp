@@ -1,5 +1,7 @@
 #include "scene/expansion.h"
 #include "scene/export.h"
+#include "scene/gltf/packed_export.h"
+#include "scene/gltf/packed_size.h"
 #include "scene/gltf/writer.h"
 
 #include <optional>
@@ -19,6 +21,40 @@ struct ByteModel::Impl {
           ranges(instanceRanges(*scene)) {
         if (expansion)
             findMergedParts();
+        if (isEstimated(options))
+            learnPacking();
+    }
+
+    void learnPacking() {
+        packing.emplace();
+        for (const double share : {1.0, 0.25, 0.06, 0.015}) {
+            Lod lod = sampleLod(*scene, share);
+            LodShape shape = shapeOf(*scene, lod);
+            if (expansion) {
+                Result<Lod> expanded = expandLod(*expansion, *scene, lod, {});
+                if (!expanded)
+                    continue; // more vertices than fit: a smaller share may
+                shape = expandShape(*expansion, *scene, shape);
+                lod = std::move(*expanded);
+            }
+            const Layout layout = chooseLayout(plan, shape);
+            const Result<PackedDocument> packed = packedExport(plan, layout, lod, "");
+            if (!packed)
+                continue; // positions that are not finite
+            const ExportBytes unpacked = exportBytes(plan, layout);
+            packing->learn(unpacked, packedBytes(*packed, dumpJson(packed->json).size(), unpacked));
+        }
+    }
+
+    std::uint64_t bytesOf(const LodShape& shape) const {
+        const Layout layout = chooseLayout(plan, shape);
+        if (!packing)
+            return exportedBytes(plan, layout);
+        return static_cast<std::uint64_t>(packing->estimate(exportBytes(plan, layout)));
+    }
+
+    double packed(ExportBytes::Part part, double bytes) const {
+        return packing ? bytes * packing->ratio(part) : bytes;
     }
 
     // Vertices of an expanded scene are only known by their bounds.
@@ -49,7 +85,7 @@ struct ByteModel::Impl {
         const MeshPlan& mesh = plan.meshes[plan.submeshes[submesh].mesh];
         for (const StreamPlan& stream : mesh.primitives[primitive].streams)
             bytes += plan.strides[stream.view_class - kFirstStrideClass];
-        return bytes;
+        return packed(ExportBytes::Geometry, bytes);
     }
 
     // How often a vertex of the scene's primitive is written, and as part of what.
@@ -66,6 +102,7 @@ struct ByteModel::Impl {
     ScenePtr scene;
     std::optional<Expansion> expansion; // Instancing::Expand only
     ExportPlan plan;                    // of the scene, or of the expanded one
+    std::optional<PackedSizes> packing; // Meshopt and Draco
     std::vector<InstanceRange> ranges;
     std::vector<std::vector<std::uint32_t>> merged_part; // [submeshes][primitives] in the skeleton
     std::vector<std::uint64_t> merging_instances;        // [submeshes]
@@ -81,9 +118,8 @@ ByteModel& ByteModel::operator=(ByteModel&&) noexcept = default;
 
 std::uint64_t ByteModel::bytes(const LodShape& shape) const {
     if (!impl_->expansion)
-        return exportedBytes(impl_->plan, chooseLayout(impl_->plan, shape));
-    const LodShape expanded = expandShape(*impl_->expansion, *impl_->scene, shape);
-    return exportedBytes(impl_->plan, chooseLayout(impl_->plan, expanded));
+        return impl_->bytesOf(shape);
+    return impl_->bytesOf(expandShape(*impl_->expansion, *impl_->scene, shape));
 }
 
 double ByteModel::bytesPerVertex(std::uint32_t submesh, std::uint32_t primitive) const {
@@ -99,20 +135,22 @@ double ByteModel::bytesPerVertex(std::uint32_t submesh, std::uint32_t primitive)
 }
 
 double ByteModel::bytesPerTriangle(std::uint32_t submesh, std::uint32_t primitive) const {
-    constexpr double kWide = 12.0; // three 32-bit indices
-    constexpr double kNarrow = 6.0;
+    const double wide = impl_->packed(ExportBytes::Geometry, 12.0); // three 32-bit indices
+    const double narrow = 0.5 * wide;
     const Geometry& geometry = *impl_->scene->submeshes[submesh].primitives[primitive].geometry;
-    const double own = geometry.positions.size() > 65535 ? kWide : kNarrow;
+    const double own = geometry.positions.size() > 65535 ? wide : narrow;
     if (!impl_->expansion)
         return own;
     const Impl::Copies copies = impl_->copies(submesh);
-    return copies.merged * kWide + copies.apart * own;
+    return copies.merged * wide + copies.apart * own;
 }
 
 double ByteModel::bytesPerInstance(std::uint32_t submesh) const {
     if (!impl_->expansion) {
         const SubmeshPlan& plan = impl_->plan.submeshes[submesh];
-        return plan.range.size() >= plan.fold_from ? plan.row_bytes : plan.node_bytes;
+        return plan.range.size() >= plan.fold_from
+                   ? impl_->packed(ExportBytes::Rows, plan.row_bytes)
+                   : plan.node_bytes;
     }
     const std::vector<Primitive>& primitives = impl_->scene->submeshes[submesh].primitives;
     const std::uint64_t count = impl_->ranges[submesh].size();

@@ -89,12 +89,20 @@ public:
                 }
             }
         if (!any)
-            return;
+            return countRows();
         requireExtension(json_, kExtension);
         rebuild();
     }
 
 private:
+    // Nothing is packed: the rows lie where they lay.
+    void countRows() {
+        for (std::size_t a = 0; a < uses_.size(); ++a)
+            if (uses_[a].kind == AccessorUse::Kind::Row)
+                document_.row_bytes +=
+                    (elementsOf(document_, a).bytes.size() + 3) & ~std::size_t{3};
+    }
+
     bool isPackable(const json& primitive) const {
         if (primitive.value("mode", kTriangles) != kTriangles || !primitive.contains("indices") ||
             primitive.contains("targets"))
@@ -297,6 +305,8 @@ private:
             View& view = kept[old];
             view.entry = json_["bufferViews"][old];
             const StridedElements elements = elementsOf(document_, a);
+            if (uses_[a].kind == AccessorUse::Kind::Row)
+                document_.row_bytes += (elements.bytes.size() + 3) & ~std::size_t{3};
             accessor["byteOffset"] = view.bytes.size();
             if (view.bytes.empty())
                 accessor.erase("byteOffset");

@@ -38,6 +38,25 @@ double angleBetween(const glm::dquat& q, const ShortQuat& shorts) {
     return 2.0 * std::atan2(glm::length(glm::dvec3(turn.x, turn.y, turn.z)), std::abs(turn.w));
 }
 
+// The lowest 21 bits, two zeros before each.
+std::uint64_t spread(std::uint64_t bits) {
+    bits &= 0x1FFFFF;
+    bits = (bits | bits << 32) & 0x001F00000000FFFFULL;
+    bits = (bits | bits << 16) & 0x001F0000FF0000FFULL;
+    bits = (bits | bits << 8) & 0x100F00F00F00F00FULL;
+    bits = (bits | bits << 4) & 0x10C30C30C30C30C3ULL;
+    return (bits | bits << 2) & 0x1249249249249249ULL;
+}
+
+glm::dvec4 valueAt(const Attribute& attribute, std::size_t row) {
+    glm::dvec4 value(0.0);
+    for (std::size_t c = 0; c < attribute.components; ++c)
+        value[static_cast<int>(c)] = static_cast<double>(attributeValue(attribute, row, c));
+    return value;
+}
+
+} // namespace
+
 GroupAttribute rotationAttribute(std::span<const Trs> rows, const RowReach& reach) {
     std::vector<ShortQuat> shorts;
     std::vector<glm::vec4> floats;
@@ -59,24 +78,21 @@ GroupAttribute rotationAttribute(std::span<const Trs> rows, const RowReach& reac
     return {"\"ROTATION\":", "\"componentType\":5126,\"type\":\"VEC4\"", 16, toBytes(floats)};
 }
 
-// The lowest 21 bits, two zeros before each.
-std::uint64_t spread(std::uint64_t bits) {
-    bits &= 0x1FFFFF;
-    bits = (bits | bits << 32) & 0x001F00000000FFFFULL;
-    bits = (bits | bits << 16) & 0x001F0000FF0000FFULL;
-    bits = (bits | bits << 8) & 0x100F00F00F00F00FULL;
-    bits = (bits | bits << 4) & 0x10C30C30C30C30C3ULL;
-    return (bits | bits << 2) & 0x1249249249249249ULL;
+double takeCommonScale(std::span<Trs> rows) {
+    if (rows.empty())
+        return 1.0;
+    const glm::vec3 first(rows.front().scale);
+    const bool uniform = first.x > 0.0f && first == glm::vec3(first.x);
+    if (!uniform ||
+        !std::ranges::all_of(rows, [&](const Trs& row) { return glm::vec3(row.scale) == first; }))
+        return 1.0;
+    const auto common = static_cast<double>(first.x);
+    for (Trs& row : rows) {
+        row.translation /= common;
+        row.scale = glm::dvec3(1.0);
+    }
+    return common;
 }
-
-glm::dvec4 valueAt(const Attribute& attribute, std::size_t row) {
-    glm::dvec4 value(0.0);
-    for (std::size_t c = 0; c < attribute.components; ++c)
-        value[static_cast<int>(c)] = static_cast<double>(attributeValue(attribute, row, c));
-    return value;
-}
-
-} // namespace
 
 std::vector<GroupAttribute> rowAttributes(std::span<const Trs> rows, const RowReach& reach) {
     std::vector<glm::vec3> scales;

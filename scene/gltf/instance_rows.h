@@ -16,6 +16,13 @@ struct RowReach {
 // tolerance (their angle is off by 4e-5 rad at most), floats otherwise.
 std::vector<GroupAttribute> rowAttributes(std::span<const Trs> rows, const RowReach& reach);
 
+// ROTATION alone, by the same rule.
+GroupAttribute rotationAttribute(std::span<const Trs> rows, const RowReach& reach);
+
+// The scale that all rows have along all axes, taken out of them so that a node around them can
+// have it instead; 1 if there is none.
+double takeCommonScale(std::span<Trs> rows);
+
 // TRANSLATION, ROTATION and SCALE by name, as floats or normalised integers of the same row count.
 struct RowColumn {
     std::string name;

@@ -19,7 +19,7 @@ namespace {
 constexpr const char* kExtension = "EXT_meshopt_compression";
 constexpr int kDirectionBits = 8;
 constexpr int kTexcoordExponent = -13;
-constexpr double kRowTolerance = 0x1p-15; // of the scene's diagonal
+constexpr double kRowTolerance = 5e-5; // of the scene's diagonal
 constexpr int kFewestRotationBits = 6;
 constexpr int kMostRotationBits = 16;
 constexpr int kFewestScaleBits = 7;
@@ -199,7 +199,7 @@ private:
     std::vector<std::byte> quaternions(std::size_t accessor) const {
         const AccessorUse& use = uses_[accessor];
         std::vector<float> values = floatsOf(document_, accessor);
-        // K bits turn a rotation by less than sqrt(2) / 2^(K - 1) rad.
+        // K bits are off by less than sqrt(2) / 2^(K - 1) rad.
         const double distance = reach_[use.node].mesh * largestRowScale(document_, use.node);
         const double turn = tolerance(use) > 0.0 ? distance / tolerance(use) : 0.0;
         const int bits = turn > 0.0
@@ -225,14 +225,14 @@ private:
         if (use.kind == AccessorUse::Kind::Vertex)
             return std::max(kTexcoordExponent, exponentFor(0.0, values));
         if (use.semantic == "TRANSLATION")
-            return exponentFor(tolerance(use), values);
+            return exponentFor(2.0 / std::sqrt(3.0) * tolerance(use), values);
         double least = std::numeric_limits<double>::infinity();
         for (const float value : values)
             if (value != 0.0f)
                 least = std::min(least, static_cast<double>(std::abs(value)));
         double step = std::ldexp(least, -kFewestScaleBits);
         if (const double reach = reach_[use.node].mesh; reach > 0.0)
-            step = std::min(step, tolerance(use) / reach);
+            step = std::min(step, 2.0 * tolerance(use) / reach);
         return exponentFor(std::isfinite(step) ? step : 0.0, values);
     }
 
@@ -302,6 +302,8 @@ private:
         fallback_bytes_ = (fallback_bytes_ + count * key.stride + 3) & ~std::size_t{3};
         packed_.insert(packed_.end(), code.begin(), code.end());
         padTo4(packed_);
+        if (key.kind == AccessorUse::Kind::Row)
+            document_.row_bytes += (code.size() + 3) & ~std::size_t{3};
     }
 
     PackedDocument& document_;

@@ -77,16 +77,17 @@ std::vector<bool> eligible(const Scene& scene) {
     return fits;
 }
 
-double powerOfTwoAtLeast(double value) {
-    return std::exp2(std::ceil(std::log2(value)));
+// With the margin that a grid has around its bounds.
+Bounds padded(const Bounds& bounds) {
+    const glm::dvec3 more = bounds.size() * (0.5 * (kMargin - 1.0));
+    Bounds wider = bounds;
+    wider.add(bounds.min - more);
+    wider.add(bounds.max + more);
+    return wider;
 }
 
-// Of the scene's shortest text of the float, so that no digits follow that a float does not have.
-double shortNumber(double value) {
-    const std::string text = fixedWidthNumber(static_cast<float>(value), 0);
-    double number = 0.0;
-    std::from_chars(text.data(), text.data() + text.size(), number);
-    return number;
+double powerOfTwoAtLeast(double value) {
+    return std::exp2(std::ceil(std::log2(value)));
 }
 
 json shortNumbers(const glm::dvec3& v) {
@@ -120,7 +121,8 @@ void compose(json& node, const PositionGrid& grid) {
                                           (*r)[1].get<double>(),
                                           (*r)[2].get<double>())) *
                 moved;
-    node["translation"] = shortNumbers(vectorAt(node, "translation", glm::dvec3(0.0)) + moved);
+    if (grid.offset != glm::dvec3(0.0))
+        node["translation"] = shortNumbers(vectorAt(node, "translation", glm::dvec3(0.0)) + moved);
     node["scale"] = shortNumbers(scale * grid.step);
 }
 
@@ -131,6 +133,13 @@ bool isPlainLeaf(const json& node) {
 }
 
 } // namespace
+
+double shortNumber(double value) {
+    const std::string text = fixedWidthNumber(static_cast<float>(value), 0);
+    double number = 0.0;
+    std::from_chars(text.data(), text.data() + text.size(), number);
+    return number;
+}
 
 glm::dmat4 gridMatrix(const PositionGrid& grid) {
     return glm::scale(glm::translate(glm::dmat4(1.0), grid.offset), glm::dvec3(grid.step));
@@ -195,7 +204,9 @@ planGrids(const Scene& scene, Compression compression, std::span<const Bounds> b
                              std::min(wanted, extent * std::exp2(-kFewestPackedBits))});
         }
         grids[s].step = powerOfTwoAtLeast(step);
-        grids[s].offset = glm::dvec3(glm::vec3(bounds[s].center()));
+        // Without an offset the translations of nodes and rows stay what they are.
+        if (!covers(grids[s], padded(bounds[s])))
+            grids[s].offset = glm::dvec3(glm::vec3(bounds[s].center()));
     }
     return grids;
 }
@@ -259,9 +270,8 @@ std::vector<std::uint32_t> applyGrids(json& document,
             compose(node, grid->second);
             continue;
         }
-        json child{{"mesh", grid->first},
-                   {"translation", shortNumbers(grid->second.offset)},
-                   {"scale", shortNumbers(glm::dvec3(grid->second.step))}};
+        json child{{"mesh", grid->first}};
+        compose(child, grid->second);
         drawn_by[n] = static_cast<std::uint32_t>(document["nodes"].size());
         node.erase("mesh");
         node["children"].push_back(drawn_by[n]);

@@ -43,6 +43,9 @@ StoredType storedType(const Attribute& attribute, Compression compression);
 // Rounds to the stored type; a copy if it is its own already.
 Attribute storedAttribute(const Attribute& attribute, const StoredType& stored);
 
+// The number that the shortest text of its float stands for: no digits that a float does not have.
+double shortNumber(double value);
+
 // Puts the grids into the transforms of the document's nodes that draw such a mesh; where a node's
 // transform has another duty, a child is appended that draws in its place.
 // references: nodes that something refers to. Returns for each former node the one that draws.

@@ -1,6 +1,7 @@
 #include "scene/gltf/writer_instances.h"
 
 #include "scene/gltf/instance_rows.h"
+#include "scene/gltf/writer_nodes.h"
 #include "scene/gltf/writer_references.h"
 
 #include <algorithm>
@@ -87,7 +88,8 @@ private:
         plan_.groups.push_back(std::move(group));
     }
 
-    // The group's rows are known. Without a grid they stay as the file has them.
+    // The group's rows are known. Without a grid they stay as the file has them, but for rotations
+    // that fewer bits hold as well.
     void fillFileGroup(GroupPlan& group, std::uint32_t scene_node) {
         const json& entry = document_["nodes"][planOf(scene_node)];
         const bool regrids = plan_.grids[group.submesh].step > 0.0;
@@ -96,10 +98,11 @@ private:
              entry["extensions"][kGpuInstancing]["attributes"].items()) {
             const json& accessor = scene_.source->json["accessors"][number.get<std::size_t>()];
             PackedElements packed = resolvedElements(*scene_.source, accessor, group.rows);
-            if (regrids && (name == "TRANSLATION" || name == "ROTATION" || name == "SCALE")) {
-                columns.push_back({name, asAttribute(accessor, std::move(packed))});
+            const bool transforms = name == "TRANSLATION" || name == "ROTATION" || name == "SCALE";
+            if (transforms)
+                columns.push_back({name, asAttribute(accessor, packed)});
+            if (transforms && (regrids || isFloatRotation(name, accessor)))
                 continue;
-            }
             GroupAttribute attribute;
             attribute.key = dumpJson(name) + ":";
             json format = json::object();
@@ -111,23 +114,52 @@ private:
             attribute.bytes = std::move(packed.bytes);
             group.attributes.push_back(std::move(attribute));
         }
-        if (!regrids)
-            return;
         std::vector<Trs> rows = rowTransforms(columns, group.rows);
+        if (regrids)
+            regrid(group, rows, entry);
+        else if (std::ranges::any_of(columns, [](const RowColumn& column) {
+                     return column.name == "ROTATION" &&
+                            column.values.type == ComponentType::Float32;
+                 }))
+            group.attributes.push_back(rotationAttribute(rows, reachOf(group.submesh, 1.0)));
+    }
+
+    static bool isFloatRotation(const std::string& name, const json& accessor) {
+        return name == "ROTATION" && accessor["componentType"] == 5126;
+    }
+
+    // The rows of a node of the file for positions on a grid.
+    void regrid(GroupPlan& group, std::vector<Trs>& rows, const json& entry) {
         for (Trs& row : rows)
             row = composed(row, plan_.grids[group.submesh]);
-        std::vector<GroupAttribute> transforms = rowAttributes(rows, reachOf(group.submesh));
+        double common = 1.0;
+        if (!plan_.nodes[group.node].always && !entry.contains("matrix")) {
+            common = takeCommonScale(rows);
+            if (common != 1.0)
+                plan_.nodes[group.node].body = Fragment(dumpMembers(scaledBody(entry, common)));
+        }
+        std::vector<GroupAttribute> transforms =
+            rowAttributes(rows, reachOf(group.submesh, common));
         group.attributes.insert(group.attributes.end(),
                                 std::make_move_iterator(transforms.begin()),
                                 std::make_move_iterator(transforms.end()));
     }
 
-    static Attribute asAttribute(const json& accessor, PackedElements packed) {
+    static json scaledBody(const json& entry, double factor) {
+        json body = nodeBody(entry);
+        json scale = body.value("scale", json::array({1.0, 1.0, 1.0}));
+        for (json& s : scale)
+            s = shortNumber(s.get<double>() * factor);
+        body["scale"] = std::move(scale);
+        return body;
+    }
+
+    static Attribute asAttribute(const json& accessor, const PackedElements& packed) {
         Attribute attribute;
         attribute.type = static_cast<ComponentType>(accessor["componentType"].get<int>());
         attribute.components = accessor["type"] == "VEC4" ? 4 : 3;
         attribute.normalized = accessor.value("normalized", false);
-        attribute.bytes = std::move(packed.bytes);
+        attribute.bytes = packed.bytes;
         return attribute;
     }
 
@@ -137,14 +169,15 @@ private:
                 row.scale * grid.step};
     }
 
-    // What rotations of the submesh's rows may move; a row's scale holds the grid's step.
-    RowReach reachOf(std::uint32_t submesh) const {
+    // What rotations of the submesh's rows may move; a row's scale holds the grid's step, or a
+    // scale of the node around them does.
+    RowReach reachOf(std::uint32_t submesh, double node_scale) const {
         const PositionGrid& grid = plan_.grids[submesh];
         const Bounds box = localBounds(scene_.submeshes[submesh]);
         const glm::dvec3 far =
             glm::max(glm::abs(box.min - grid.offset), glm::abs(box.max - grid.offset));
         return {glm::length(far) / (grid.step > 0.0 ? grid.step : 1.0),
-                plan_.diagonal * kRotationTolerance};
+                plan_.diagonal * kRotationTolerance / node_scale};
     }
 
     // A row as a node of its own, below the node that held it.
@@ -238,15 +271,20 @@ private:
     void addFold(std::uint32_t submesh,
                  std::uint32_t parent,
                  const std::vector<std::uint32_t>& members,
-                 const std::vector<Trs>& transforms) {
+                 std::vector<Trs>& transforms) {
         const auto group_index = static_cast<std::uint32_t>(plan_.groups.size());
         GroupPlan group;
         group.submesh = submesh;
         group.node = static_cast<std::uint32_t>(plan_.nodes.size());
         group.rows = static_cast<std::uint32_t>(members.size());
         group.folded = true;
-        group.attributes = rowAttributes(transforms, reachOf(submesh));
         NodePlan node;
+        const double common = takeCommonScale(transforms);
+        if (common != 1.0) {
+            const std::string text = floatText(common);
+            node.body = Fragment("\"scale\":[" + text + "," + text + "," + text + "]");
+        }
+        group.attributes = rowAttributes(transforms, reachOf(submesh, common));
         node.parent = parent;
         node.mesh = plan_.submeshes[submesh].mesh;
         node.group = group_index;

@@ -72,15 +72,11 @@ NodePlan nodePlan(ExportPlan& plan, json& entry, bool is_wanted, bool is_drawn) 
         node.extensions = Fragment(dumpMembers(extensions));
         node.always |= !extensions.empty();
     }
-    json body = json::object();
     json with_mesh = json::object();
-    for (const auto& [key, value] : entry.items()) {
-        if (key == "skin" || key == "weights")
-            with_mesh[key] = value;
-        else if (key != "children" && key != "mesh" && key != "extensions")
-            body[key] = value;
-    }
-    node.body = Fragment(dumpMembers(body));
+    for (const char* key : {"skin", "weights"})
+        if (entry.contains(key))
+            with_mesh[key] = entry[key];
+    node.body = Fragment(dumpMembers(nodeBody(entry)));
     node.with_mesh = dumpMembers(with_mesh);
     return node;
 }
@@ -126,6 +122,13 @@ void listRoles(ExportPlan& plan) {
 }
 
 } // namespace
+
+json nodeBody(const json& entry) {
+    json body = entry;
+    for (const char* key : {"children", "mesh", "extensions", "skin", "weights"})
+        body.erase(key);
+    return body;
+}
 
 void planNodes(ExportPlan& plan, json& document, const std::set<std::uint32_t>& wanted) {
     const std::vector<bool> drawn = drawnNodes(document);

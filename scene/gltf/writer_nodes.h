@@ -10,6 +10,9 @@ namespace lodestone {
 // document: the source's, references already rewritten. wanted: nodes that something refers to.
 void planNodes(ExportPlan& plan, nlohmann::json& document, const std::set<std::uint32_t>& wanted);
 
+// Members of a node but children, mesh, extensions and what only goes with a mesh.
+nlohmann::json nodeBody(const nlohmann::json& entry);
+
 // Fills scenes and the lists of children. added_roots: nodes that are not in the document and
 // belong to the drawn scene.
 void planScenes(ExportPlan& plan,
