@@ -33,6 +33,7 @@ Result<void> writeNumbers(AtomicFile& file, std::span<const std::uint32_t> numbe
 struct Content {
     std::string json;
     std::uint64_t binary_bytes = 0;
+    std::uint64_t dropped_triangles = 0;
     std::function<Result<void>(AtomicFile&)> write_binary;
 };
 
@@ -158,14 +159,15 @@ contentOf(const ExportPlan& plan, const Layout& layout, const Lod& lod, const fs
             return tl::unexpected(packed.error());
         const auto binary =
             std::make_shared<const std::vector<std::byte>>(std::move(packed->binary));
-        return Content{dumpJson(packed->json), binary->size(), [binary](AtomicFile& file) {
-                           return file.write(*binary);
-                       }};
+        return Content{dumpJson(packed->json),
+                       binary->size(),
+                       packed->dropped_triangles,
+                       [binary](AtomicFile& file) { return file.write(*binary); }};
     }
     Result<std::string> text = exportedJson(plan, layout, lod, bufferFileName(path));
     if (!text)
         return tl::unexpected(text.error());
-    return Content{std::move(*text), layout.binary_bytes, [&](AtomicFile& file) {
+    return Content{std::move(*text), layout.binary_bytes, 0, [&](AtomicFile& file) {
                        Result<void> result;
                        writeBinary(plan, layout, lod, [&](std::span<const std::byte> bytes) {
                            result = file.write(bytes);
@@ -212,6 +214,9 @@ Result<ExportReport> writeScene(const Scene& scene,
         return tl::unexpected(done.error());
     ExportReport report = reportOf(plan, layout, shape);
     report.bytes = bytesOf(plan, *content);
+    if (content->dropped_triangles > 0)
+        report.notes.push_back(std::to_string(content->dropped_triangles) +
+                               " triangles with two equal corners left out: Draco has none");
     return report;
 }
 

@@ -272,6 +272,8 @@ private:
     }
 
     void install(json& primitive, const PackedPrimitive& packed) {
+        document_.dropped_triangles +=
+            (elementsOf(document_, primitive["indices"]).count - packed.indices) / 3;
         for (auto& [semantic, number] : primitive["attributes"].items()) {
             json& accessor = json_["accessors"][ownAccessor(number)];
             unplace(accessor, packed.points);

@@ -12,9 +12,10 @@ struct PackedDocument {
     nlohmann::json json;
     std::vector<std::byte> binary;
     std::uint32_t first_view = 0;
-    std::uint64_t first_byte = 0; // of the view first_view
-    double diagonal = 0.0;        // of the scene: what precision is measured by
-    std::uint64_t row_bytes = 0;  // of the binary, for instance rows, once packed
+    std::uint64_t first_byte = 0;        // of the view first_view
+    double diagonal = 0.0;               // of the scene: what precision is measured by
+    std::uint64_t row_bytes = 0;         // of the binary, for instance rows, once packed
+    std::uint64_t dropped_triangles = 0; // that the packed form cannot hold: two corners are one
 };
 
 // What an accessor of the export is used for.

@@ -164,7 +164,7 @@ TEST_F(CliTest, WrongUsageIsOneLineAndExitCode2) {
         {"simplify", in, "-o", out, "--algorithm", "ias", "--ratio", "0.5", "--ordering", "x"},
         {"simplify", in, "-o", out, "--algorithm", "ias", "--ratio", "0.5", "--scope", "x"},
         {"simplify", in, "-o", out, "--algorithm", "ias", "--ratio", "0.5", "--instancing", "x"},
-        {"simplify", in, "-o", out, "--algorithm", "ias", "--ratio", "0.5", "--compress", "draco"},
+        {"simplify", in, "-o", out, "--algorithm", "ias", "--ratio", "0.5", "--compress", "zip"},
         {"simplify", in, "-o", path("out.obj"), "--algorithm", "ias", "--ratio", "0.5"},
         {"compare", in},
         {"compare", in, "--algorithms", "ias,nope", "--ratio", "0.5"},
