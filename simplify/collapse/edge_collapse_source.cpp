@@ -190,13 +190,21 @@ std::vector<SequenceRequest> requestsFor(SequenceSet& set, const EdgeCollapseOpt
     return requests;
 }
 
-void planRemovals(SequenceSet& set, const Bounds& bounds, const JobContext& job) {
+enum class RemovalRule : std::uint8_t { ByCost, ByPaper };
+
+void planRemovals(SequenceSet& set, const Bounds& bounds, RemovalRule rule, const JobContext& job) {
     constexpr double kCoverTolerance = 2e-4; // of the diagonal
     const std::vector<Cover> covers =
         findCovers(*set.scene, set.ranges, set.sequences, kCoverTolerance * set.diagonal);
+    const std::size_t in_all = set.scene->instances.size();
     tbb::parallel_for(std::size_t{0}, covers.size(), [&](std::size_t s) {
-        if (set.ranges[s].size() > 1 && !job.stopRequested())
-            set.removals[s] = planRemoval(*set.scene, set.ranges[s], bounds, covers[s]);
+        const InstanceRange range = set.ranges[s];
+        const bool thinned = rule == RemovalRule::ByCost || isCrowd(range.size(), in_all);
+        if (range.size() < 2 || !thinned || job.stopRequested())
+            return;
+        set.removals[s] = planRemoval(*set.scene, range, bounds, covers[s]);
+        if (rule == RemovalRule::ByPaper)
+            putOff(set.removals[s]);
     });
 }
 
@@ -220,7 +228,10 @@ Result<LodSourcePtr> prepareEdgeCollapse(ScenePtr scene,
     set->sequences = std::move(*sequences);
     set->removals.resize(requests.size());
     if (options.remove_instances)
-        planRemovals(*set, bounds, job);
+        planRemovals(*set,
+                     bounds,
+                     options.remove_by_paper ? RemovalRule::ByPaper : RemovalRule::ByCost,
+                     job);
     if (job.stopRequested())
         return cancelled();
     const double sequence_seconds = secondsSince(start);

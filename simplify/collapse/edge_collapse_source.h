@@ -10,6 +10,7 @@ struct EdgeCollapseOptions {
     FloorOptions floors;
     bool weigh_instances = true;  // IAS; false: every submesh as if it stood alone, once
     bool remove_instances = true; // below the floors
+    bool remove_by_paper = false; // of crowds only, once nothing is left to collapse
 };
 
 // Sequences for every submesh of the scene, then a schedule: what all edge-collapse methods share.

@@ -33,6 +33,16 @@ Measure measureAt(const CollapseSequence& sequence, const Submesh& submesh, std:
     return measure;
 }
 
+// The extents that must stay. A leaf's sag is not its size: an axis less than half as long as both
+// others does not count.
+glm::dvec3 leastExtents(const glm::dvec3& size, double share) {
+    glm::dvec3 least = size * share;
+    for (int axis = 0; axis < 3; ++axis)
+        if (2.0 * size[axis] < std::min(size[(axis + 1) % 3], size[(axis + 2) % 3]))
+            least[axis] = 0.0;
+    return least;
+}
+
 // The last step with at least that many triangles.
 std::uint32_t lastStepWith(const CollapseSequence& sequence, std::uint32_t triangles) {
     std::uint32_t low = 0;
@@ -60,9 +70,9 @@ std::uint32_t floorStep(const CollapseSequence& sequence,
     if (instance_count < 2 || limit == 0)
         return limit;
     const Measure whole = measureAt(sequence, submesh, 0);
+    const glm::dvec3 least = leastExtents(whole.bounds.size(), floors.min_extent);
     const auto passes = [&](std::uint32_t step) {
         const Measure now = measureAt(sequence, submesh, step);
-        const glm::dvec3 least = whole.bounds.size() * floors.min_extent;
         const glm::dvec3 size = now.bounds.size();
         const double slack = 1e-9 * whole.bounds.diagonal();
         return size.x + slack >= least.x && size.y + slack >= least.y &&

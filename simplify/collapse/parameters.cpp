@@ -78,6 +78,18 @@ ParameterInfo removalParameter() {
     return removal;
 }
 
+ParameterInfo removalRuleParameter() {
+    ParameterInfo rule;
+    rule.id = "removal-rule";
+    rule.label = "Removal rule";
+    rule.tooltip = "Instances go when that costs less than collapsing on or, as the paper has it, "
+                   "once nothing is left to collapse, of submeshes with 5 % of all instances or "
+                   "1,000.";
+    rule.kind = ParameterInfo::Kind::Choice;
+    rule.choices = {"by-cost", "paper"};
+    return rule;
+}
+
 Result<EdgeCollapseOptions> readCollapseParameters(const Algorithm& algorithm,
                                                    const ParameterValues& values) {
     if (const Result<void> checked = checkParameters(algorithm, values); !checked)
@@ -91,6 +103,7 @@ Result<EdgeCollapseOptions> readCollapseParameters(const Algorithm& algorithm,
     weights.normal = parameterValue(algorithm, values, "normal-weight");
     weights.color = parameterValue(algorithm, values, "color-weight");
     options.remove_instances = parameterValue(algorithm, values, "remove-instances") > 0.5;
+    options.remove_by_paper = parameterValue(algorithm, values, "removal-rule") > 0.5;
     return options;
 }
 

@@ -6,7 +6,9 @@
 namespace lodestone {
 
 std::vector<ParameterInfo> collapseParameters();
-ParameterInfo removalParameter(); // for methods that keep instances
+// For methods that keep instances: whether they thin them out, and by which rule.
+ParameterInfo removalParameter();
+ParameterInfo removalRuleParameter();
 
 // Options of an edge-collapse row from its values. Errors: Usage, naming the parameter.
 Result<EdgeCollapseOptions> readCollapseParameters(const Algorithm& algorithm,

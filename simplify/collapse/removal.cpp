@@ -199,6 +199,17 @@ std::vector<std::uint32_t> removalOrder(const std::vector<Member>& members) {
 
 } // namespace
 
+bool isCrowd(std::uint32_t instances, std::size_t instances_in_all) {
+    return instances >= 1000 || std::size_t{20} * instances >= instances_in_all;
+}
+
+void putOff(RemovalSequence& removal) {
+    constexpr double kBeyond = 1e150; // no scene's collapses cost as much
+    constexpr double kFree = 1e-50;   // what costs nothing is put off as well
+    for (double& cost : removal.cost)
+        cost = (cost + kFree) * kBeyond;
+}
+
 double growthAt(const RemovalSequence& removal, std::uint32_t kept) {
     const std::size_t gone = removal.area_left.size() - 1 - kept;
     return gone == 0 || kept == 0 ? 1.0 : static_cast<double>(removal.growth[gone - 1]);

@@ -22,13 +22,21 @@ struct RemovalSequence {
     bool possible() const { return !cost.empty(); }
 };
 
-// Survivors are enlarged by at most this factor; beyond it the area falls.
-constexpr double kMaxGrowth = 4.0;
+// Survivors are enlarged by at most this factor; beyond it (fewer than one in 25 left) the area
+// falls.
+constexpr double kMaxGrowth = 5.0;
 
 // Growth of the survivors' size when `kept` of all instances are left: sqrt(area of all / kept).
 // Where a cover is nearer than the sisters it is bounded by 1 + cover / radius: a window must not
 // outgrow its wall to make up for others.
 double growthAt(const RemovalSequence& removal, std::uint32_t kept);
+
+// Whether the paper's rule thins out a submesh: it has a twentieth of all instances, or 1,000.
+bool isCrowd(std::uint32_t instances, std::size_t instances_in_all);
+
+// Makes removals dearer than any collapse, as the paper has it: they begin when nothing is left to
+// collapse. Among themselves their order stays.
+void putOff(RemovalSequence& removal);
 
 // Plans the removals of a submesh's instances. scene_bounds: those of the original model; instances
 // that would leave it when grown go first within their stratum. O(n log n), any thread.

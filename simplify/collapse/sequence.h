@@ -47,7 +47,7 @@ struct CollapseSequence {
 struct FloorOptions {
     bool enabled = true;
     std::uint32_t min_triangles = 4; // or all it has, if fewer
-    double min_extent = 0.8;         // of every axis, while it has several instances
+    double min_extent = 0.8;         // of every axis but a thin one, while it has several instances
     double min_area = 0.5;           // while it has several instances
 };
 

@@ -29,6 +29,7 @@ Algorithm iasAlgorithm() {
         "its small file stay.";
     row.parameters = collapseParameters();
     row.parameters.push_back(removalParameter());
+    row.parameters.push_back(removalRuleParameter());
     row.prepare = prepareIas;
     return row;
 }

@@ -59,6 +59,7 @@ Algorithm quadricSubmeshAlgorithm() {
         "instances are.";
     row.parameters = collapseParameters();
     row.parameters.push_back(removalParameter());
+    row.parameters.push_back(removalRuleParameter());
     row.prepare = prepareSubmesh;
     return row;
 }

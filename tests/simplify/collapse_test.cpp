@@ -330,4 +330,17 @@ TEST(Collapse, ManyInstancesKeepExtentAndArea) {
     EXPECT_LT(least.faces, whole.faces / 4);
 }
 
+// Its sag is a hundredth of its size: the floor on extents must not hold on to it.
+TEST(Collapse, ASaggingLeafOfManyInstancesMayBecomeFlat) {
+    auto leaf = std::make_shared<Geometry>(*meshes::grid(8));
+    for (glm::vec3& p : leaf->positions)
+        p.z = 0.02f * (p.x * (1.0f - p.x) + p.y * (1.0f - p.y));
+    const Submesh submesh = submeshOf({leaf});
+    const CollapseSequence sequence = sequenceOf(submesh, {}, {}, 5);
+    const Shape least = meshes::shapeOf(readAt(sequence, submesh, sequence.step_count));
+    EXPECT_EQ(least.faces, 4u);
+    EXPECT_GE(least.bounds.size().x, 0.799);
+    EXPECT_GE(least.bounds.size().y, 0.799);
+}
+
 } // namespace lodestone

@@ -1,4 +1,5 @@
 #include "scene/generate.h"
+#include "simplify/measure/distance.h"
 #include "tests/scene/scene_fixtures.h"
 #include "tests/simplify/meshes.h"
 
@@ -328,6 +329,72 @@ TEST(Schedule, ReachesATenthOfAPercentOnScenesOfManyInstances) {
         EXPECT_TRUE(resolved.met) << name;
         EXPECT_LE(static_cast<double>(source->trianglesAt(resolved.position)),
                   ratio * static_cast<double>(source->trianglesAt(0)));
+    }
+}
+
+// A crowd of spheres, two tori.
+TEST(Schedule, ByThePapersRuleOnlyCrowdsAreThinnedOnceNothingIsLeftToCollapse) {
+    const ScenePtr scene =
+        meshes::sceneOf({submeshOf({meshes::sphere(8, 10)}), submeshOf({meshes::torus(12, 8)})},
+                        {meshes::gridOfTransforms(7, 3.0),
+                         {glm::dmat4(1.0), glm::translate(glm::dmat4(1.0), glm::dvec3(-9.0))}});
+    EdgeCollapseOptions options;
+    options.remove_by_paper = true;
+    for (const Ordering ordering : kOrderings) {
+        const LodSourcePtr source = prepared(scene, {ordering, {}, {}}, options);
+        const Lod last = source->readOut(source->positionCount() - 1, nullptr);
+        EXPECT_EQ(last.submeshes[0].kept_instances, 1u);
+        EXPECT_EQ(last.submeshes[1].kept_instances, 2u);
+        std::uint64_t first = 0; // position with an instance less
+        while (source->shapeAt(first).submeshes[0].kept_instances == 49)
+            ++first;
+        EXPECT_EQ(source->readOut(first, nullptr).unique_triangles, last.unique_triangles);
+        EXPECT_EQ(source->positionCount() - first, 48u);
+    }
+}
+
+double areaOf(const Lod& lod, std::size_t submesh) {
+    return meshes::shapeOf(lod.submeshes[submesh].primitives).area *
+           lod.submeshes[submesh].kept_instances;
+}
+
+// The original code thins out leaves only after it has destroyed the trunk, and misses the target.
+TEST(Schedule, AForestOfCardsKeepsItsTrunkAndTheAreaOfItsLeaves) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> even(-1.0, 1.0);
+    std::vector<glm::dmat4> leaves;
+    while (leaves.size() < 40'000) {
+        const glm::dvec3 at(even(random), even(random), even(random));
+        if (glm::dot(at, at) > 1.0)
+            continue;
+        const glm::dvec3 axis(even(random), even(random), 1.1);
+        leaves.push_back(glm::rotate(glm::translate(glm::dmat4(1.0), 4.0 * at),
+                                     3.0 * even(random),
+                                     glm::normalize(axis)) *
+                         glm::scale(glm::dmat4(1.0), glm::dvec3(0.1)));
+    }
+    const glm::dmat4 stem = glm::scale(glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, -3.0)),
+                                       glm::dvec3(0.4, 0.4, 5.0));
+    const Submesh trunk = submeshOf({meshes::sphere(25, 40)});
+    const ScenePtr scene = meshes::sceneOf({trunk, submeshOf({meshes::card(1)})}, {{stem}, leaves});
+    const ScenePtr alone = meshes::sceneOf({trunk}, {{stem}});
+    const LodSourcePtr source = prepared(scene);
+    const Lod whole = source->readOut(0, nullptr);
+    for (const double ratio : {0.2, 0.05}) {
+        const double target = ratio * static_cast<double>(whole.triangles);
+        const Resolved at = source->resolve({Target::Kind::Triangles, target}, {scene, {}});
+        const Lod lod = source->readOut(at.position, nullptr);
+        EXPECT_TRUE(at.met);
+        EXPECT_GE(static_cast<double>(lod.triangles), 0.99 * target);
+        EXPECT_NEAR(areaOf(lod, 1), areaOf(whole, 1), 0.05 * areaOf(whole, 1)) << ratio;
+        Lod of_trunk;
+        of_trunk.submeshes.push_back(lod.submeshes[0]);
+        of_trunk.submeshes[0].instance_order = nullptr;
+        const Lod full = fullLod(*alone);
+        const auto distance =
+            measureDistance({alone.get(), &full}, {alone.get(), &of_trunk}, {20'000, 1}, {});
+        ASSERT_TRUE(distance.has_value());
+        EXPECT_LE(distance->hausdorff, 1.0) << ratio;
     }
 }
 
