@@ -31,12 +31,17 @@ bool setState(Lane& lane, LaneState state, double progress = 0.0, std::string fa
     return changed;
 }
 
+// like: a source of the same scene and family, or null.
 Result<JobResult> prepareSource(const BuildKey& key,
+                                const LodSourcePtr& like,
                                 const ScheduleOptions& schedule,
                                 const ExportOptions& export_options,
                                 const JobContext& context) {
+    const Algorithm& algorithm = *key.algorithm;
     Result<LodSourcePtr> source =
-        key.algorithm->prepare(key.scene, key.parameters, schedule, context);
+        like && algorithm.prepareLike
+            ? algorithm.prepareLike(*like, key.parameters, schedule, context)
+            : algorithm.prepare(key.scene, key.parameters, schedule, context);
     if (!source)
         return tl::unexpected<Error>(std::move(source.error()));
     PreparedSource prepared;
@@ -210,9 +215,10 @@ void LaneWorker::startBuild(const Document& document, const Lane& lane, Work& wo
     spec.revision = lane.revision;
     spec.label = fmt::format("Building {}", laneName(lane.settings));
     spec.run = [key = work.key,
+                like = sources_.findLike(work.key),
                 schedule = work.pending_schedule,
                 export_options = document.export_options](const JobContext& context) {
-        return prepareSource(key, schedule, export_options, context);
+        return prepareSource(key, like, schedule, export_options, context);
     };
     work.job = jobs_.start(std::move(spec));
 }

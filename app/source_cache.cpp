@@ -32,6 +32,13 @@ const CachedSource* SourceCache::find(const BuildKey& key) const {
     return found == entries_.end() ? nullptr : &*found;
 }
 
+LodSourcePtr SourceCache::findLike(const BuildKey& key) const {
+    for (auto entry = entries_.rbegin(); entry != entries_.rend(); ++entry)
+        if (entry->key.scene == key.scene && entry->key.algorithm->family == key.algorithm->family)
+            return entry->source;
+    return nullptr;
+}
+
 void SourceCache::insert(CachedSource entry) {
     std::erase_if(entries_, [&](const CachedSource& old) { return old.key == entry.key; });
     entries_.push_back(std::move(entry));

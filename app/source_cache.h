@@ -26,6 +26,8 @@ struct CachedSource {
 class SourceCache {
 public:
     const CachedSource* find(const BuildKey& key) const; // nullptr if absent
+    // The newest of the key's scene and family, for prepareLike; null if there is none.
+    LodSourcePtr findLike(const BuildKey& key) const;
     void insert(CachedSource entry);
     // Keeps what `used` names and the newest few others, so that undo finds them again; nothing of
     // another scene.

@@ -8,14 +8,6 @@ namespace lodestone {
 
 namespace {
 
-void applyUnlessStopped(CloudSurface& surface,
-                        const Complex& complex,
-                        const Merges& merges,
-                        const JobContext& job) {
-    if (!job.stopRequested())
-        applyMerges(surface, merges, complex);
-}
-
 void runVertexTriplex(CloudSurface& surface,
                       const Complex& complex,
                       const CloudSettings& settings,
@@ -24,7 +16,7 @@ void runVertexTriplex(CloudSurface& surface,
         if (left < settings.main)
             flipToDelaunay(surface, job);
         const Merges merges = vertexTriplex(surface, std::min(left, 1.0), settings.fidelity, job);
-        applyUnlessStopped(surface, complex, merges, job);
+        applyMerges(surface, merges, complex, job);
     }
 }
 
@@ -34,8 +26,7 @@ void runMerging(CloudSurface& surface,
                 const CloudSettings& settings,
                 const JobContext& job) {
     if (settings.main > 0.0)
-        applyUnlessStopped(
-            surface, complex, Method(surface, settings.main, settings.fidelity, job), job);
+        applyMerges(surface, Method(surface, settings.main, settings.fidelity, job), complex, job);
 }
 
 void runFaceAngle(CloudSurface& surface,
@@ -56,8 +47,8 @@ void runFaceAngleScanning(CloudSurface& surface,
         surface,
         {settings.angle_deg, settings.area_share, settings.passes, settings.fidelity},
         job);
-    applyUnlessStopped(
-        surface, complex, sphericalScanning(surface, settings.main, settings.fidelity, job), job);
+    applyMerges(
+        surface, sphericalScanning(surface, settings.main, settings.fidelity, job), complex, job);
 }
 
 } // namespace

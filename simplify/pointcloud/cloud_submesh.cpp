@@ -67,7 +67,7 @@ CloudSubmesh makeCloudSubmesh(const Submesh& submesh,
     made.complex = buildComplex(submesh, job);
     if (job.stopRequested())
         return made;
-    made.surface = makeSurface(submesh, made.complex);
+    made.surface = makeSurface(submesh, made.complex, job);
     made.edge_length = typicalEdge(made.surface);
     return made;
 }

@@ -10,16 +10,16 @@ namespace lodestone {
 namespace {
 
 // Marks the faces whose mirror image (same vertices, other orientation) is in the input, too.
-void markTwoSided(CloudSurface& surface) {
+void markTwoSided(CloudSurface& surface, const JobContext& job) {
     TriangleTable table(surface.faces.size());
-    for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
+    for (std::uint32_t f = 0; f < surface.faces.size() && !stopsAt(f, job); ++f) {
         const TriangleKey key = triangleKey(surface.corners(f), 0);
         TriangleTable::Entry& entry = table.at(key);
         std::uint32_t& first = key.turned ? entry.backward : entry.forward;
         if (first == kNone)
             first = f;
     }
-    for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
+    for (std::uint32_t f = 0; f < surface.faces.size() && !stopsAt(f, job); ++f) {
         const TriangleTable::Entry& entry = table.at(triangleKey(surface.corners(f), 0));
         surface.two_sided[f] = entry.forward != kNone && entry.backward != kNone;
     }
@@ -39,14 +39,15 @@ bool sameChart(const Geometry& geometry, std::uint32_t a, std::uint32_t b) {
 }
 
 // Wedges of a vertex and primitive that look alike get the number of the first of them.
-std::vector<std::uint32_t> findCharts(const Submesh& submesh, const Complex& complex) {
+std::vector<std::uint32_t>
+findCharts(const Submesh& submesh, const Complex& complex, const JobContext& job) {
     std::vector<std::uint32_t> chart(complex.wedge_vertex.size());
     std::vector<std::uint32_t> first(complex.positions.size(), kNone); // [vertices] chart
     std::vector<std::uint32_t> next(chart.size(), kNone);              // [charts] of the vertex
     for (std::size_t p = 0; p < submesh.primitives.size(); ++p) {
         const Geometry& geometry = *submesh.primitives[p].geometry;
         const std::uint32_t begin = complex.wedge_begin[p];
-        for (std::uint32_t w = begin; w < complex.wedge_begin[p + 1]; ++w) {
+        for (std::uint32_t w = begin; w < complex.wedge_begin[p + 1] && !stopsAt(w, job); ++w) {
             std::uint32_t at = first[complex.wedge_vertex[w]];
             while (at != kNone && at >= begin &&
                    !sameChart(geometry, complex.wedge_source[at], complex.wedge_source[w]))
@@ -63,7 +64,7 @@ std::vector<std::uint32_t> findCharts(const Submesh& submesh, const Complex& com
 
 } // namespace
 
-CloudSurface makeSurface(const Submesh& submesh, const Complex& complex) {
+CloudSurface makeSurface(const Submesh& submesh, const Complex& complex, const JobContext& job) {
     CloudSurface surface;
     surface.positions.assign(complex.positions.begin(), complex.positions.end());
     surface.wedge_vertex = complex.wedge_vertex;
@@ -77,9 +78,9 @@ CloudSurface makeSurface(const Submesh& submesh, const Complex& complex) {
                   p);
     surface.two_sided.resize(surface.faces.size());
     surface.changed.resize(surface.faces.size());
-    surface.chart = findCharts(submesh, complex);
-    markTwoSided(surface);
-    return surface;
+    surface.chart = findCharts(submesh, complex, job);
+    markTwoSided(surface, job);
+    return job.stopRequested() ? CloudSurface() : surface;
 }
 
 void forgetUnusedWedges(CloudSurface& surface) {

@@ -32,8 +32,8 @@ struct CloudSurface {
     }
 };
 
-// The surface of a submesh before any simplification. O(faces).
-CloudSurface makeSurface(const Submesh& submesh, const Complex& complex);
+// The surface of a submesh before any simplification. O(faces). Empty where asked to stop.
+CloudSurface makeSurface(const Submesh& submesh, const Complex& complex, const JobContext& job);
 
 // Compacts the lists of faces to those that keep(face) wants.
 template <class Keep>

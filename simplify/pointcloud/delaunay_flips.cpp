@@ -30,9 +30,11 @@ double cosine(const glm::dvec3& u, const glm::dvec3& v) {
 class Flipper {
 public:
     Flipper(CloudSurface& surface, const JobContext& job)
-        : surface_(surface), job_(job), edges_(surface), region_(surface.changed) {}
+        : surface_(surface), job_(job), edges_(surface, job), region_(surface.changed) {}
 
     void run() {
+        if (job_.stopRequested())
+            return;
         queueAll();
         std::size_t rounds = 0;
         // Flat Delaunay ends by itself; on a curved surface the limit makes sure of it.

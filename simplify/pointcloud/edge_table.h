@@ -22,14 +22,15 @@ struct CloudEdge {
 // Edges are listed at the end that has fewer corners, so that no list is long. O(faces) to make.
 class EdgeTable {
 public:
-    explicit EdgeTable(const CloudSurface& surface)
+    // Left unfinished where asked to stop.
+    EdgeTable(const CloudSurface& surface, const JobContext& job)
         : corner_count_(surface.positions.size(), 0), first_(surface.positions.size(), kNone) {
         for (std::size_t f = 0; f < surface.faces.size(); ++f)
             for (const std::uint32_t vertex : surface.corners(f))
                 ++corner_count_[vertex];
         edges_.reserve(3 * surface.faces.size() / 2 + 16);
         sides_.resize(surface.faces.size());
-        for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
+        for (std::uint32_t f = 0; f < surface.faces.size() && !stopsAt(f, job); ++f) {
             const Triangle corners = surface.corners(f);
             for (std::size_t k = 0; k < 3; ++k)
                 sides_[f][k] = addFace(corners[k], corners[(k + 1) % 3], f);

@@ -91,14 +91,14 @@ bool unrolls(std::span<const glm::dvec2> rim) {
 
 class FaceAnglePass {
 public:
-    FaceAnglePass(CloudSurface& surface, const FaceAngleOptions& options)
+    FaceAnglePass(CloudSurface& surface, const FaceAngleOptions& options, const JobContext& job)
         : surface_(surface), options_(options), corners_(cornersOf(surface)),
           stars_(buildStars(corners_, surface.positions.size())),
           cosine_(cosineDeg(options.angle_deg)), normals_(surface.faces.size()),
           areas_(surface.faces.size()), kept_(surface.positions.size(), false),
           gone_(surface.faces.size(), false), new_edges_(surface.positions.size()) {
         double area = 0.0;
-        for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+        for (std::size_t f = 0; f < surface.faces.size() && !stopsAt(f, job); ++f) {
             normals_[f] = faceVector(surface.points(f));
             areas_[f] = glm::length(normals_[f]);
             area += areas_[f];
@@ -346,14 +346,14 @@ void removeFlatVertices(CloudSurface& surface,
                         const JobContext& job) {
     std::vector<bool> decided;
     if (options.fidelity == Fidelity::Literal) {
-        const FaceAnglePass pass(surface, options);
+        const FaceAnglePass pass(surface, options, job);
         decided.resize(surface.positions.size());
-        for (std::uint32_t v = 0; v < decided.size(); ++v)
+        for (std::uint32_t v = 0; v < decided.size() && !stopsAt(v, job); ++v)
             decided[v] = pass.isFlat(v);
     }
     std::vector<bool> look(surface.positions.size(), true);
     for (std::uint32_t p = 0; p < options.passes && !job.stopRequested(); ++p) {
-        FaceAnglePass pass(surface, options);
+        FaceAnglePass pass(surface, options, job);
         if (pass.run(look, decided.empty() ? nullptr : &decided, job) == 0)
             break;
         look = pass.takeNeighbours();

@@ -56,9 +56,9 @@ struct Met {
 };
 
 // [faces] shortest side.
-std::vector<float> shortestSides(const CloudSurface& surface) {
+std::vector<float> shortestSides(const CloudSurface& surface, const JobContext& job) {
     std::vector<float> shortest(surface.faces.size());
-    for (std::size_t f = 0; f < shortest.size(); ++f)
+    for (std::size_t f = 0; f < shortest.size() && !stopsAt(f, job); ++f)
         shortest[f] = static_cast<float>(std::ranges::min(sidesOf(surface.points(f))));
     return shortest;
 }
@@ -72,8 +72,8 @@ Merges walk(const CloudSurface& surface,
             const JobContext& job,
             const MergeFace& merge_face) {
     constexpr double kRounding = 1e-6; // of floats
-    MergeBuilder builder(surface, fidelity);
-    const std::vector<float> shortest = shortestSides(surface);
+    MergeBuilder builder(surface, fidelity, job);
+    const std::vector<float> shortest = shortestSides(surface, job);
     std::vector<std::uint32_t> open(surface.faces.size()); // faces that have not collapsed
     std::iota(open.begin(), open.end(), 0u);
     for (const double threshold : thresholds(surface, distance, fidelity)) {

@@ -6,24 +6,24 @@
 
 namespace lodestone {
 
-MergeBuilder::MergeBuilder(const CloudSurface& surface, Fidelity fidelity)
+MergeBuilder::MergeBuilder(const CloudSurface& surface, Fidelity fidelity, const JobContext& job)
     : fidelity_(fidelity), corners_(surface.faces.size()), merged_(surface.positions.size(), 0) {
     merges_.target.resize(surface.positions.size());
     std::iota(merges_.target.begin(), merges_.target.end(), 0u);
     merges_.positions = surface.positions;
-    for (std::size_t f = 0; f < corners_.size(); ++f)
+    for (std::size_t f = 0; f < corners_.size() && !stopsAt(f, job); ++f)
         corners_[f] = surface.corners(f);
     if (fidelity == Fidelity::Sound)
-        linkFaces();
+        linkFaces(job);
 }
 
-void MergeBuilder::linkFaces() {
+void MergeBuilder::linkFaces(const JobContext& job) {
     const std::size_t vertices = merges_.target.size();
     first_.assign(vertices, kNone);
     last_.assign(vertices, kNone);
     mark_.assign(vertices, 0);
     next_.assign(3 * corners_.size(), kNone);
-    for (std::uint32_t link = 0; link < next_.size(); ++link) {
+    for (std::uint32_t link = 0; link < next_.size() && !stopsAt(link, job); ++link) {
         const std::uint32_t vertex = corners_[link / 3][link % 3];
         if (first_[vertex] == kNone)
             first_[vertex] = link;

@@ -7,7 +7,8 @@ namespace lodestone {
 class MergeBuilder {
 public:
     // Sound: merges that would turn a remaining face by more than 80 degrees are refused.
-    MergeBuilder(const CloudSurface& surface, Fidelity fidelity);
+    // job: not kept; where it is to stop the builder is fit to be dropped alone.
+    MergeBuilder(const CloudSurface& surface, Fidelity fidelity, const JobContext& job);
 
     std::uint32_t find(std::uint32_t vertex) {
         std::vector<std::uint32_t>& parent = merges_.target;
@@ -51,7 +52,7 @@ public:
     Merges finish();
 
 private:
-    void linkFaces();
+    void linkFaces(const JobContext& job);
     // Takes a face that has collapsed out of a root's list; previous: the link before it or kNone.
     void unlink(std::uint32_t root, std::uint32_t link, std::uint32_t previous);
 

@@ -19,12 +19,14 @@ std::uint32_t findRoot(std::vector<std::uint32_t>& parent, std::uint32_t v) {
 
 // Wedges that become one: those that a face joins whose corners merge. Across a seam no face does.
 // Result [wedges]: the wedge that stands for it.
-std::vector<std::uint32_t>
-groupWedges(const CloudSurface& surface, const Merges& merges, const Complex& complex) {
+std::vector<std::uint32_t> groupWedges(const CloudSurface& surface,
+                                       const Merges& merges,
+                                       const Complex& complex,
+                                       const JobContext& job) {
     std::vector<std::uint32_t> parent(surface.wedge_vertex.size());
     std::iota(parent.begin(), parent.end(), 0u);
     bool any = false;
-    for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+    for (std::size_t f = 0; f < surface.faces.size() && !stopsAt(f, job); ++f) {
         const Triangle corners = surface.corners(f);
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t next = (k + 1) % 3;
@@ -40,7 +42,7 @@ groupWedges(const CloudSurface& surface, const Merges& merges, const Complex& co
         return parent;
     std::vector<std::uint32_t> nearest(parent.size(), kNone); // [roots]
     std::vector<double> distance2(parent.size(), std::numeric_limits<double>::max());
-    for (std::uint32_t w = 0; w < parent.size(); ++w) {
+    for (std::uint32_t w = 0; w < parent.size() && !stopsAt(w, job); ++w) {
         if (surface.wedge_vertex[w] == kNone)
             continue;
         const std::uint32_t root = findRoot(parent, w);
@@ -90,11 +92,11 @@ void remapFaces(CloudSurface& surface,
     surface.changed.resize(kept);
 }
 
-void dropDoubles(CloudSurface& surface) {
+void dropDoubles(CloudSurface& surface, const JobContext& job) {
     const auto changed = static_cast<std::size_t>(
         std::ranges::count_if(surface.changed, [](std::uint8_t flag) { return flag != 0; }));
     TriangleTable table(changed);
-    for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
+    for (std::uint32_t f = 0; f < surface.faces.size() && !stopsAt(f, job); ++f) {
         if (!surface.changed[f])
             continue;
         const TriangleKey key = triangleKey(surface.corners(f), surface.primitive[f]);
@@ -107,7 +109,7 @@ void dropDoubles(CloudSurface& surface) {
             ++(key.turned ? entry.backward_count : entry.forward_count);
     }
     std::vector<bool> keep(surface.faces.size(), true);
-    for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
+    for (std::uint32_t f = 0; f < surface.faces.size() && !stopsAt(f, job); ++f) {
         if (!surface.changed[f])
             continue;
         const TriangleKey key = triangleKey(surface.corners(f), surface.primitive[f]);
@@ -123,8 +125,13 @@ void dropDoubles(CloudSurface& surface) {
 
 } // namespace
 
-void applyMerges(CloudSurface& surface, const Merges& merges, const Complex& complex) {
-    const std::vector<std::uint32_t> wedge_for = groupWedges(surface, merges, complex);
+void applyMerges(CloudSurface& surface,
+                 const Merges& merges,
+                 const Complex& complex,
+                 const JobContext& job) {
+    const std::vector<std::uint32_t> wedge_for = groupWedges(surface, merges, complex, job);
+    if (job.stopRequested())
+        return;
     remapFaces(surface, merges, wedge_for);
     for (std::uint32_t& vertex : surface.wedge_vertex)
         if (vertex != kNone)
@@ -133,7 +140,9 @@ void applyMerges(CloudSurface& surface, const Merges& merges, const Complex& com
         if (vertex != kNone)
             vertex = merges.target[vertex];
     surface.positions = merges.positions;
-    dropDoubles(surface);
+    if (job.stopRequested())
+        return;
+    dropDoubles(surface, job);
     forgetUnusedWedges(surface);
 }
 

@@ -8,8 +8,12 @@ namespace lodestone {
 // on the same three vertices: opposite ones cancel in pairs, of equal ones the first is kept. So a
 // closed, consistently oriented surface gets no edge with exactly one face. Faces that the input
 // has on both sides stay both. Wedges that became one keep the attributes of the wedge that lay
-// nearest. complex: what the surface was made of. O(faces).
-void applyMerges(CloudSurface& surface, const Merges& merges, const Complex& complex);
+// nearest. complex: what the surface was made of. O(faces). Stops early where asked to; the surface
+// is to be dropped then.
+void applyMerges(CloudSurface& surface,
+                 const Merges& merges,
+                 const Complex& complex,
+                 const JobContext& job);
 
 // Flips edges to the Delaunay criterion in the faces that changed (and their borders), where the
 // two faces are nearly in one plane, belong to one primitive and no seam runs between them.

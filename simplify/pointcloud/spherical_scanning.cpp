@@ -11,9 +11,9 @@ namespace {
 
 // Squared distances to the planes of the faces around each vertex, weighted by area. Every one of
 // those planes goes through the vertex, so the quadric about it is its matrix alone.
-std::vector<glm::dmat3> vertexQuadrics(const CloudSurface& surface) {
+std::vector<glm::dmat3> vertexQuadrics(const CloudSurface& surface, const JobContext& job) {
     std::vector<glm::dmat3> quadrics(surface.positions.size(), glm::dmat3(0.0));
-    for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+    for (std::size_t f = 0; f < surface.faces.size() && !stopsAt(f, job); ++f) {
         const glm::dvec3 normal = faceVector(surface.points(f));
         const double length = glm::length(normal);
         if (!(length > 0.0))
@@ -98,8 +98,8 @@ Merges sphericalScanning(const CloudSurface& surface,
                          double radius,
                          Fidelity fidelity,
                          const JobContext& job) {
-    MergeBuilder builder(surface, fidelity);
-    const std::vector<glm::dmat3> quadrics = vertexQuadrics(surface);
+    MergeBuilder builder(surface, fidelity, job);
+    const std::vector<glm::dmat3> quadrics = vertexQuadrics(surface, job);
     std::vector<bool> taken(surface.positions.size(), true); // also those without a face
     for (const std::uint32_t vertex : surface.wedge_vertex)
         if (vertex != kNone)

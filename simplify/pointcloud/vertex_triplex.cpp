@@ -15,7 +15,7 @@ double spreadOf(std::uint32_t number) {
 
 Merges
 vertexTriplex(const CloudSurface& surface, double share, Fidelity fidelity, const JobContext& job) {
-    MergeBuilder builder(surface, fidelity);
+    MergeBuilder builder(surface, fidelity, job);
     std::vector<bool> merged(surface.positions.size(), false);
     for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
         if (stopsAt(f, job))
