@@ -22,8 +22,8 @@ std::string optionalParts() {
 #else
     std::string parts = "no window";
 #endif
-    parts += "; import: tinygltf, Draco, meshoptimizer, assimp; distance: Embree; surfaces from "
-             "points: ";
+    parts += "; import: tinygltf, Draco, meshoptimizer, assimp; images: stb, libwebp; distance: "
+             "Embree; surfaces from points: ";
     return parts + (canRebuildFromPoints() ? "CGAL (GPL-3)" : "none");
 }
 

@@ -8,7 +8,7 @@ build_packages=(
     libglfw3-dev libimgui-dev libepoxy-dev libegl-dev libopengl-dev libgl-dev libstb-dev
     libfontconfig-dev libfreetype-dev libglm-dev libtinygltf-dev nlohmann-json3-dev libcli11-dev libspdlog-dev
     libtbb-dev libexpected-dev libassimp-dev libembree-dev
-    libmeshoptimizer-dev libdraco-dev
+    libmeshoptimizer-dev libdraco-dev libwebp-dev
     libegl1 libgl1 libgl1-mesa-dri fontconfig fonts-inter fonts-dejavu-core
 )
 

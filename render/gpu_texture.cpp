@@ -5,16 +5,6 @@
 
 namespace lodestone {
 
-namespace {
-
-std::string imageLabel(const Scene& scene, std::uint32_t index) {
-    const Image& image = scene.images[index];
-    const std::string& name = !image.name.empty() ? image.name : image.uri;
-    return "image " + std::to_string(index) + (name.empty() ? "" : " '" + name + "'");
-}
-
-} // namespace
-
 std::vector<DecodedImage>
 decodeImages(const Scene& scene, const std::vector<TextureWish>& wishes, int max_size_px) {
     std::vector<DecodedImage> decoded(wishes.size());

@@ -1,13 +1,46 @@
 #include "scene/decoded_image.h"
 
 #include <limits>
+#include <span>
 #include <stb_image.h>
+#include <webp/decode.h>
 
 namespace lodestone {
 
 namespace {
 
 constexpr std::int64_t kMaxPixels = std::int64_t(1) << 27; // 512 MiB decoded
+
+enum class Coder : std::uint8_t { Stb, WebP, None };
+
+// Who reads the bytes; sets the size if anybody does.
+Coder coderOf(std::span<const unsigned char> bytes, DecodedImage& decoded) {
+    int channels = 0;
+    if (stbi_info_from_memory(bytes.data(),
+                              static_cast<int>(bytes.size()),
+                              &decoded.width,
+                              &decoded.height,
+                              &channels) != 0)
+        return Coder::Stb;
+    if (WebPGetInfo(bytes.data(), bytes.size(), &decoded.width, &decoded.height) != 0)
+        return Coder::WebP;
+    return Coder::None;
+}
+
+void decode(std::span<const unsigned char> bytes, Coder coder, DecodedImage& decoded) {
+    int channels = 0;
+    if (coder == Coder::WebP)
+        decoded.rgba = {WebPDecodeRGBA(bytes.data(), bytes.size(), &decoded.width, &decoded.height),
+                        WebPFree};
+    else
+        decoded.rgba = {stbi_load_from_memory(bytes.data(),
+                                              static_cast<int>(bytes.size()),
+                                              &decoded.width,
+                                              &decoded.height,
+                                              &channels,
+                                              STBI_rgb_alpha),
+                        stbi_image_free};
+}
 
 } // namespace
 
@@ -21,10 +54,10 @@ DecodedImage decodeImage(const Image& image, int max_size_px) {
         decoded.fault = "is larger than 2 GiB";
         return decoded;
     }
-    const auto* data = reinterpret_cast<const stbi_uc*>(image.bytes->data());
-    const int size_bytes = static_cast<int>(image.bytes->size());
-    int channels = 0;
-    if (stbi_info_from_memory(data, size_bytes, &decoded.width, &decoded.height, &channels) == 0) {
+    const std::span bytes(reinterpret_cast<const unsigned char*>(image.bytes->data()),
+                          image.bytes->size());
+    const Coder coder = coderOf(bytes, decoded);
+    if (coder == Coder::None) {
         const std::string type = image.mime_type.empty() ? "its format" : image.mime_type;
         decoded.fault = type + " cannot be shown (it is kept in exports)";
         return decoded;
@@ -35,13 +68,16 @@ DecodedImage decodeImage(const Image& image, int max_size_px) {
                         " px are more than the GPU takes";
         return decoded;
     }
-    decoded.rgba = {
-        stbi_load_from_memory(
-            data, size_bytes, &decoded.width, &decoded.height, &channels, STBI_rgb_alpha),
-        stbi_image_free};
+    decode(bytes, coder, decoded);
     if (!decoded.rgba)
         decoded.fault = "is damaged";
     return decoded;
+}
+
+std::string imageLabel(const Scene& scene, std::uint32_t index) {
+    const Image& image = scene.images[index];
+    const std::string& name = !image.name.empty() ? image.name : image.uri;
+    return "image " + std::to_string(index) + (name.empty() ? "" : " '" + name + "'");
 }
 
 } // namespace lodestone

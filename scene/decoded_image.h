@@ -12,8 +12,12 @@ struct DecodedImage {
     std::string fault; // what is wrong with the image; empty: decoded
 };
 
-// Decodes PNG and JPEG (and whatever else stb_image knows), at most 2^27 pixels.
+// Decodes PNG and JPEG (and whatever else stb_image knows) and WebP, at most 2^27 pixels. Not KTX2:
+// no library for it is packaged.
 // max_size_px: of a side. Any thread.
 DecodedImage decodeImage(const Image& image, int max_size_px);
+
+// "image 3 'bark'": how messages name an image of a scene. index in range.
+std::string imageLabel(const Scene& scene, std::uint32_t index);
 
 } // namespace lodestone

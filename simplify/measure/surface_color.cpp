@@ -76,13 +76,6 @@ glm::vec3 linearAt(const DecodedImage& image, const glm::vec2& uv, const Texture
                     share.y);
 }
 
-std::string imageLabel(const Scene& scene, std::size_t index) {
-    const Image& image = scene.images[index];
-    const std::string& name = !image.name.empty() ? image.name : image.uri;
-    return scene.name + ": image " + std::to_string(index) +
-           (name.empty() ? std::string() : " (" + name + ")");
-}
-
 } // namespace
 
 SurfaceColors::SurfaceColors(const Scene& scene) : scene_(scene), images_(scene.images.size()) {
@@ -94,10 +87,10 @@ SurfaceColors::SurfaceColors(const Scene& scene) : scene_(scene), images_(scene.
         if (used[i])
             images_[i] = decodeImage(scene.images[i], std::numeric_limits<int>::max());
     });
-    for (std::size_t i = 0; i < images_.size(); ++i)
+    for (std::uint32_t i = 0; i < images_.size(); ++i)
         if (used[i] && !images_[i].rgba)
-            notes_.push_back(imageLabel(scene, i) +
-                             " cannot be read and counts as white; use PNG or JPEG");
+            notes_.push_back(scene.name + ": " + imageLabel(scene, i) + " " + images_[i].fault +
+                             ": it counts as white; use PNG, JPEG or WebP");
 }
 
 glm::dvec3 SurfaceColors::at(const Geometry& geometry,

@@ -7,8 +7,9 @@ namespace lodestone {
 // Immutable once made; any number of threads.
 class SurfaceColors {
 public:
-    // Decodes the base colour images of the scene's materials, in parallel: PNG and JPEG (whatever
-    // stb_image knows); others are named in notes() and count as white. scene must outlive it.
+    // Decodes the base colour images of the scene's materials, in parallel: PNG, JPEG and
+    // WebP (whatever decodeImage knows); others are named in notes() and count as white. scene must
+    // outlive it.
     explicit SurfaceColors(const Scene& scene);
 
     // sRGB, 0..1 each, of a point of a triangle. geometry: drawn with that material (index or

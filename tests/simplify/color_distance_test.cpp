@@ -149,7 +149,7 @@ TEST(ColorDistance, UnreadableImageCountsAsWhiteAndIsNamed) {
     const ColorDistance distance = measure(broken, coloredSquare({1, 1, 1, 1}));
     EXPECT_NEAR(distance.mean, 0.0, 1e-6);
     ASSERT_EQ(distance.notes.size(), 1u);
-    EXPECT_NE(distance.notes[0].find("square.glb: image 0 (row)"), std::string::npos);
+    EXPECT_NE(distance.notes[0].find("square.glb: image 0 'row'"), std::string::npos);
 }
 
 TEST(ColorDistance, BothWaysAreAveraged) {
