@@ -65,7 +65,8 @@ public:
     // Draws off screen and writes the PNG. Errors: Failed (no GL, disk), Cancelled. Main thread.
     virtual Result<RenderReport> render(const RenderRequest& request, const JobContext& job) = 0;
     // Draws off screen, column after column, each from all views in order, and hands every picture
-    // over. Plain background, opaque. Errors: as render, or the sink's. Main thread.
+    // over: over a plain background, alpha 0 where nothing else is seen. Errors: as render, or the
+    // sink's. Main thread.
     virtual Result<void>
     draw(const PictureRequest& request, const PictureSink& sink, const JobContext& job) = 0;
 };

@@ -6,6 +6,7 @@
 #include "ui/fonts.h"
 #endif
 
+#include <cmath>
 #include <numbers>
 
 namespace lodestone {
@@ -84,7 +85,7 @@ public:
             input.scene = &uploaded->scene;
             input.lod = &uploaded->lod;
             input.options.shading = shadingFor(request.shading);
-            input.options.background = Background::Solid;
+            input.options.background = Background::Transparent; // drawPicture puts it under
             input.size = {static_cast<int>(request.width_px), static_cast<int>(request.height_px)};
             for (std::size_t v = 0; v < cameras.size(); ++v) {
                 if (job.stopRequested())
@@ -134,12 +135,26 @@ private:
         return cameras;
     }
 
+    // The colours over a background; alpha stays.
+    static void putUnder(const glm::vec3& background_srgb, std::vector<std::uint8_t>& rgba) {
+        for (std::size_t i = 0; i < rgba.size(); i += 4) {
+            const float alpha = static_cast<float>(rgba[i + 3]) / 255.0f;
+            for (int c = 0; c < 3; ++c) {
+                std::uint8_t& byte = rgba[i + static_cast<std::size_t>(c)];
+                const float under = 255.0f * background_srgb[c];
+                byte = static_cast<std::uint8_t>(
+                    std::lround(alpha * static_cast<float>(byte) + (1.0f - alpha) * under));
+            }
+        }
+    }
+
     static Result<Picture> drawPicture(View& view, const View::Input& input) {
         if (const auto drawn = view.draw(input); !drawn)
             return tl::unexpected<Error>(drawn.error());
         Result<Pixels> pixels = view.readPixels();
         if (!pixels)
             return tl::unexpected<Error>(std::move(pixels.error()));
+        putUnder(input.options.background_srgb, pixels->rgba);
         return Picture{pixels->width, pixels->height, std::move(pixels->rgba)};
     }
 

@@ -160,13 +160,14 @@ h1{font-size:24px}
 .hint{display:none}
 .pictures{grid-template-columns:1fr 1fr;gap:10px}
 .pictures figcaption,.numbers{flex-wrap:wrap;padding:8px 10px}
+.pictures figcaption{flex-direction:column;gap:2px}
+.pictures figcaption .quiet{min-height:1.5em}
 .notes{grid-template-columns:1fr;gap:4px}
 .notes dd{margin-bottom:10px}
 .chart-card{padding:12px 8px 4px}
 .chart{font-size:15px}
 }
-@media (prefers-reduced-motion:reduce){.reference-label{paint-order:stroke;stroke:var(--panel);stroke-width:4px;stroke-linejoin:round}
-.series{transition:none}}
+@media (prefers-reduced-motion:reduce){.series{transition:none}}
 @media print{.stage,#theme{display:none}body{font-size:11px}.pictures{grid-template-columns:repeat(3,1fr)}}
 )css";
 

@@ -59,7 +59,25 @@ double meanOf(const Plane& plane) {
     return sum / static_cast<double>(plane.values.size());
 }
 
-double ssimOf(const Picture& reference, const Picture& test) {
+// The pixels that at least one of the pictures covers.
+class Covered {
+public:
+    Covered(const Picture& a, const Picture& b) : covered_(a.rgba.size() / 4) {
+        for (std::size_t i = 0; i < covered_.size(); ++i)
+            covered_[i] = a.rgba[4 * i + 3] > 0 || b.rgba[4 * i + 3] > 0;
+    }
+
+    bool operator[](std::size_t pixel) const { return covered_[pixel]; }
+
+    double count() const {
+        return static_cast<double>(std::count(covered_.begin(), covered_.end(), true));
+    }
+
+private:
+    std::vector<bool> covered_;
+};
+
+double ssimOf(const Picture& reference, const Picture& test, const Covered& covered) {
     const Plane a = lumaOf(reference);
     const Plane b = lumaOf(test);
     const std::array<Plane, 5> planes = {a, b, product(a, a), product(b, b), product(a, b)};
@@ -75,14 +93,19 @@ double ssimOf(const Picture& reference, const Picture& test) {
     for (std::size_t p = 0; p < planes.size(); ++p)
         means[p] = filteredAlongY(filteredAlongX(planes[p], window), window);
     double sum = 0.0;
+    std::uint64_t windows = 0;
     for (std::uint32_t y = kWindowRadius; y < a.height - kWindowRadius; ++y)
-        for (std::uint32_t x = kWindowRadius; x < a.width - kWindowRadius; ++x)
+        for (std::uint32_t x = kWindowRadius; x < a.width - kWindowRadius; ++x) {
+            if (!covered[std::size_t{y} * a.width + x])
+                continue;
+            ++windows;
             sum += similarity({means[0].row(y)[x],
                                means[1].row(y)[x],
                                means[2].row(y)[x],
                                means[3].row(y)[x],
                                means[4].row(y)[x]});
-    return sum / (static_cast<double>(a.width - kSide + 1) * (a.height - kSide + 1));
+        }
+    return windows > 0 ? sum / static_cast<double>(windows) : 1.0;
 }
 
 double psnrOf(double mean_squared_error) {
@@ -95,14 +118,14 @@ double meanSquaredErrorOf(double psnr_db) {
     return std::isinf(psnr_db) ? 0.0 : kBytePeak * kBytePeak * std::pow(10.0, -0.1 * psnr_db);
 }
 
-double meanSquaredError(const Picture& a, const Picture& b) {
+double meanSquaredError(const Picture& a, const Picture& b, const Covered& covered) {
     std::uint64_t sum = 0;
     for (std::size_t i = 0; i < a.rgba.size(); i += 4)
-        for (std::size_t c = 0; c < 3; ++c) {
+        for (std::size_t c = 0; c < 3 && covered[i / 4]; ++c) {
             const int difference = int{a.rgba[i + c]} - int{b.rgba[i + c]};
             sum += static_cast<std::uint64_t>(difference * difference);
         }
-    return static_cast<double>(sum) / (0.75 * static_cast<double>(a.rgba.size()));
+    return static_cast<double>(sum) / (3.0 * covered.count());
 }
 
 bool isWhole(const Picture& picture) {
@@ -132,13 +155,16 @@ Result<ImageDifference> comparePictures(const Picture& reference,
     const Result<std::vector<float>> map = flipMap(reference, test, options, job);
     if (!map)
         return tl::unexpected<Error>(map.error());
-    ImageDifference difference;
-    for (const float value : *map)
-        difference.flip += value;
-    difference.flip /= static_cast<double>(map->size());
-    difference.ssim = ssimOf(reference, test);
-    difference.psnr_db = psnrOf(meanSquaredError(reference, test));
-    difference.cameras = 1;
+    const Covered covered(reference, test);
+    ImageDifference difference{0.0, 1.0, psnrOf(0.0), 1};
+    if (covered.count() == 0.0)
+        return difference;
+    for (std::size_t i = 0; i < map->size(); ++i)
+        if (covered[i])
+            difference.flip += (*map)[i];
+    difference.flip /= covered.count();
+    difference.ssim = ssimOf(reference, test, covered);
+    difference.psnr_db = psnrOf(meanSquaredError(reference, test, covered));
     return difference;
 }
 

@@ -9,7 +9,8 @@
 
 namespace lodestone {
 
-// Rows from the top, no padding, sRGB; alpha is ignored.
+// Rows from the top, no padding, sRGB, as seen: already over its background. alpha 0: nothing but
+// background is seen there.
 struct Picture {
     std::uint32_t width_px = 0;
     std::uint32_t height_px = 0;
@@ -22,10 +23,12 @@ struct ImageDifferenceOptions {
     double pixels_per_degree = 67.0;
 };
 
-// Of one pair of pictures, or of several pairs of one size.
+// Of one pair of pictures, or of several pairs of one size. Pixels count that at least one of the
+// two pictures covers (alpha above 0), so that the numbers do not depend on how much background
+// there is around; none: equal.
 struct ImageDifference {
-    double flip = 0.0;         // mean over all pixels, 0 equal .. 1
-    double ssim = 1.0;         // mean over all windows, 1 equal; of the luma
+    double flip = 0.0;         // mean over the pixels, 0 equal .. 1
+    double ssim = 1.0;         // mean over the windows around them, 1 equal; of the luma
     double psnr_db = 0.0;      // of the red, green and blue bytes; infinity: equal
     std::uint32_t cameras = 0; // pairs
 };

@@ -39,6 +39,21 @@ Picture disk(int shift) {
     return picture;
 }
 
+// With so many pixels more on every side, and all that is grey as background.
+Picture amidBackground(const Picture& inner, std::uint32_t margin) {
+    Picture picture =
+        filled(inner.width_px + 2 * margin, inner.height_px + 2 * margin, {90, 90, 90});
+    for (std::uint32_t y = 0; y < inner.height_px; ++y)
+        std::copy_n(inner.rgba.begin() + 4 * std::ptrdiff_t{y} * inner.width_px,
+                    4 * inner.width_px,
+                    picture.rgba.begin() +
+                        4 * (std::ptrdiff_t{y + margin} * picture.width_px + margin));
+    for (std::size_t i = 0; i < picture.rgba.size(); i += 4)
+        if (picture.rgba[i] == 90)
+            picture.rgba[i + 3] = 0;
+    return picture;
+}
+
 Picture noise(unsigned seed) {
     Picture picture = filled(80, 60, {0, 0, 0});
     std::mt19937 random(seed);
@@ -93,12 +108,33 @@ TEST(ImageDifference, SsimOfFlatPicturesIsItsLuminanceTerm) {
     EXPECT_NEAR(difference.ssim, (2 * a * b + 1e-4) / (a * a + b * b + 1e-4), 1e-3);
 }
 
-TEST(ImageDifference, AlphaDoesNotCount) {
+TEST(ImageDifference, HowMuchAPixelIsCoveredDoesNotCount) {
     Picture faded = disk(0);
     for (std::size_t i = 3; i < faded.rgba.size(); i += 4)
         faded.rgba[i] = 7;
     EXPECT_EQ(compare(disk(0), faded).flip, 0.0);
     EXPECT_TRUE(std::isinf(compare(disk(0), faded).psnr_db));
+}
+
+TEST(ImageDifference, IsTheSameWithMoreBackgroundAround) {
+    const ImageDifference narrow =
+        compare(amidBackground(disk(0), 16), amidBackground(disk(3), 16));
+    const ImageDifference wide = compare(amidBackground(disk(0), 64), amidBackground(disk(3), 64));
+    EXPECT_GT(narrow.flip, 0.05);
+    EXPECT_NEAR(wide.flip, narrow.flip, 1e-6);
+    EXPECT_NEAR(wide.ssim, narrow.ssim, 1e-6);
+    EXPECT_NEAR(wide.psnr_db, narrow.psnr_db, 1e-9);
+}
+
+TEST(ImageDifference, OfBackgroundAloneIsZero) {
+    Picture nothing = filled(40, 40, {90, 90, 90});
+    for (std::size_t i = 3; i < nothing.rgba.size(); i += 4)
+        nothing.rgba[i] = 0;
+    const ImageDifference difference = compare(nothing, nothing);
+    EXPECT_EQ(difference.flip, 0.0);
+    EXPECT_EQ(difference.ssim, 1.0);
+    EXPECT_TRUE(std::isinf(difference.psnr_db));
+    EXPECT_EQ(difference.cameras, 1u);
 }
 
 TEST(ImageDifference, GrowsWithTheShiftOfADisk) {
