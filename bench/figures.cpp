@@ -3,22 +3,14 @@
 
 #include "bench/rows.h"
 
-#include <functional>
-#include <iostream>
-
 namespace lodestone::bench {
 
 namespace {
 
-struct Section {
-    std::string title;
-    std::function<Result<void>(Bench&)> add;
-};
-
 // A section over one scene; without the scene it is left out and said so.
-Section sceneSection(const std::string& title,
-                     const std::function<Result<ScenePtr>(Inputs&)>& find,
-                     const std::function<Result<void>(Bench&, const ScenePtr&)>& add) {
+FigureSection sceneSection(const std::string& title,
+                           const std::function<Result<ScenePtr>(Inputs&)>& find,
+                           const std::function<Result<void>(Bench&, const ScenePtr&)>& add) {
     return {title, [=](Bench& bench) -> Result<void> {
                 const Result<ScenePtr> scene = find(bench.inputs);
                 if (!scene)
@@ -40,7 +32,9 @@ struct SceneRows {
     AddScene add;
 };
 
-void addBoth(std::vector<Section>& sections, const SceneRows& rows, const std::string& given) {
+void addBoth(std::vector<FigureSection>& sections,
+             const SceneRows& rows,
+             const std::string& given) {
     sections.push_back(sceneSection(
         rows.title,
         [name = rows.name](Inputs& inputs) { return inputs.own(name); },
@@ -66,7 +60,9 @@ AddScene instanced(const InstancedTargets& targets) {
     };
 }
 
-std::vector<Section> allSections(const std::string& given) {
+} // namespace
+
+std::vector<FigureSection> figureSections(const std::string& given) {
     const auto equal = [](Bench& bench, const ScenePtr& scene, SketchInput) {
         return addEqualRows(bench, scene);
     };
@@ -75,7 +71,7 @@ std::vector<Section> allSections(const std::string& given) {
     };
     constexpr SketchInput kSame = SketchInput::Same;
     constexpr SketchInput kAnother = SketchInput::Another;
-    std::vector<Section> sections{sceneSection(
+    std::vector<FigureSection> sections{sceneSection(
         "Stanford bunny",
         [](Inputs& inputs) { return inputs.stanfordBunny(); },
         [](Bench& bench, const ScenePtr& scene) {
@@ -92,27 +88,9 @@ std::vector<Section> allSections(const std::string& given) {
         addBoth(sections, rows, given);
     sections.push_back({"Read-out", addReadOutRows});
     sections.push_back({"Files and schedules", addFileRows});
+    sections.push_back({"Distance", addDistanceRows});
     sections.push_back({"Memory", addMemoryRows});
     return sections;
-}
-
-} // namespace
-
-int addFigures(Bench& bench, const std::string& given, const TitleFilter& wanted) {
-    int code = 0;
-    for (const Section& section : allSections(given)) {
-        if (!wanted(section.title))
-            continue;
-        std::cerr << section.title << '\n';
-        bench.table.heading(section.title);
-        const Result<void> added = section.add(bench);
-        if (!added) {
-            std::cerr << "lodestone_bench: " << section.title << ": " << added.error().message
-                      << '\n';
-            code = exitCode(added.error().kind);
-        }
-    }
-    return code;
 }
 
 } // namespace lodestone::bench

@@ -1,6 +1,6 @@
 #pragma once
 // The promised figures and the scenes beside peers, as the bench goes through them.
-#include "bench/peer_board.h"
+#include "bench/peer_sheet.h"
 #include "bench/rows.h"
 
 #include <functional>
@@ -9,24 +9,24 @@ namespace lodestone::bench {
 
 using TitleFilter = std::function<bool(const std::string& title)>;
 
-// Adds every wanted section of promised figures to the table. given: folder of further scenes,
-// empty: none. What fails is told on stderr and left out. Returns the exit code.
-int addFigures(Bench& bench, const std::string& given, const TitleFilter& wanted);
-
-enum class PeerInputs : std::uint8_t { Few, All };
-
-// Adds a sheet for every wanted input that is there, and the names of those that are not.
-// As addFigures otherwise.
-struct PeerRun {
-    PeerBoard board;
-    std::vector<std::string> tables; // Markdown, one an input
-    std::vector<std::string> absent; // inputs
+// Rows of promised figures under one heading.
+struct FigureSection {
+    std::string title;
+    std::function<Result<void>(Bench&)> add; // to the bench's table
 };
 
-int addPeers(PeerRun& run,
-             const PeerBench& bench,
-             Inputs& inputs,
-             PeerInputs which,
-             const TitleFilter& wanted);
+// All of them. given: folder of further scenes, empty: none.
+std::vector<FigureSection> figureSections(const std::string& given);
+
+// A scene on which peers are measured beside us.
+struct PeerSection {
+    std::string title;
+    bool quick = false; // also in a quick run
+    // None where the input is absent.
+    std::function<Result<std::optional<PeerSheet>>(const PeerBench&, Inputs&)> measure;
+};
+
+// Single meshes, then instanced scenes, then textured ones.
+std::vector<PeerSection> peerSections();
 
 } // namespace lodestone::bench

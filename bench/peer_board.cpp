@@ -95,6 +95,20 @@ std::string peerLine(const PeerRow& row) {
         ratioText(kMeasures[4].ratio(row)));
 }
 
+std::string ourLine(const PeerRow& row) {
+    const bool as_predicted = row.ours.predicted_bytes == row.ours.bytes;
+    return fmt::format("| {} | {} | {} | {} | {}{} | {:.4f} | {:.4f} | {} |\n",
+                       row.name,
+                       countText(row.ours.triangles),
+                       countText(row.ours.instances),
+                       countText(row.ours.predicted_bytes),
+                       countText(row.ours.bytes),
+                       as_predicted ? "" : " **not as predicted**",
+                       row.ours.maximum,
+                       row.ours.mean,
+                       flipText(row.ours.flip));
+}
+
 // One peer's ratios of one measure over the inputs.
 struct Record {
     std::vector<double> ratios;
@@ -186,8 +200,21 @@ std::string PeerBoard::table(const PeerSheet& sheet) {
     text += ownLine(sheet);
     for (const PeerRow& row : sheet.rows)
         text += peerLine(row);
+    text += "\nOurs at as many triangles:\n\n"
+            "| beside | triangles | instances | bytes predicted | bytes written | max % | mean % | "
+            "FLIP |\n|---|---|---|---|---|---|---|---|\n";
+    for (const PeerRow& row : sheet.rows)
+        if (row.failure.empty())
+            text += ourLine(row);
     if (!sheet.picture_failure.empty())
         text += "\nNo pictures: " + sheet.picture_failure + "\n";
+    return text;
+}
+
+std::string PeerBoard::tables() const {
+    std::string text;
+    for (const PeerSheet& sheet : sheets_)
+        text += "\n### " + sheet.input + "\n\n" + table(sheet);
     return text;
 }
 
@@ -223,10 +250,10 @@ std::string PeerBoard::csv() const {
     std::string text = "input,what,kind,seconds_median,seconds_min,seconds_max,time_over_ours,"
                        "triangles,instances,bytes,max_percent,mean_percent,flip,"
                        "our_triangles,our_instances,our_bytes,our_max_percent,our_mean_percent,"
-                       "our_flip,failure\n";
+                       "our_flip,our_predicted_bytes,failure\n";
     for (const PeerSheet& sheet : sheets_)
         for (const PeerRow& row : sheet.rows)
-            text += fmt::format("\"{}\",\"{}\",{},{:.6g},{:.6g},{:.6g},{:.6g},{},{},\"{}\"\n",
+            text += fmt::format("\"{}\",\"{}\",{},{:.6g},{:.6g},{:.6g},{:.6g},{},{},{},\"{}\"\n",
                                 sheet.input,
                                 row.name,
                                 kindName(row.kind),
@@ -236,6 +263,7 @@ std::string PeerBoard::csv() const {
                                 row.time_ratio,
                                 csvWorth(row.theirs),
                                 csvWorth(row.ours),
+                                row.ours.predicted_bytes,
                                 row.failure);
     return text;
 }

@@ -12,7 +12,9 @@ public:
 
     // Markdown: each peer over all inputs, and where it beats us.
     std::string summary() const;
-    // Markdown: one table.
+    // Markdown: every sheet under its heading.
+    std::string tables() const;
+    // Markdown: the peers, and beside them ours at as many triangles.
     static std::string table(const PeerSheet& sheet);
     // One line a row, with a header; plain numbers.
     std::string csv() const;

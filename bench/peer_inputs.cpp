@@ -2,7 +2,6 @@
 #include "bench/figures.h"
 
 #include <array>
-#include <iostream>
 
 namespace lodestone::bench {
 
@@ -58,28 +57,14 @@ sheetOf(const PeerInputFile& input, const PeerBench& bench, Inputs& inputs) {
 
 } // namespace
 
-int addPeers(PeerRun& run,
-             const PeerBench& bench,
-             Inputs& inputs,
-             PeerInputs which,
-             const TitleFilter& wanted) {
-    int code = 0;
-    for (const PeerInputFile& input : kInputs) {
-        if (!wanted(input.title) || (which == PeerInputs::Few && !input.quick))
-            continue;
-        std::cerr << "peers: " << input.title << '\n';
-        Result<std::optional<PeerSheet>> sheet = sheetOf(input, bench, inputs);
-        if (!sheet) {
-            std::cerr << "lodestone_bench: peers: " << sheet.error().message << '\n';
-            code = exitCode(sheet.error().kind);
-        } else if (*sheet) {
-            run.tables.push_back("\n### " + (*sheet)->input + "\n\n" + PeerBoard::table(**sheet));
-            run.board.add(std::move(**sheet));
-        } else {
-            run.absent.emplace_back(input.title);
-        }
-    }
-    return code;
+std::vector<PeerSection> peerSections() {
+    std::vector<PeerSection> sections;
+    for (const PeerInputFile& input : kInputs)
+        sections.push_back(
+            {input.title, input.quick, [&input](const PeerBench& bench, Inputs& inputs) {
+                 return sheetOf(input, bench, inputs);
+             }});
+    return sections;
 }
 
 } // namespace lodestone::bench

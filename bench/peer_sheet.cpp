@@ -216,7 +216,8 @@ Result<std::size_t> SheetMaker::oursAt(const LodSource& source, const Target& ta
         return tl::unexpected(written.error());
     made.worth.bytes = writtenBytes(path);
     ++sheet_.files_of_ours;
-    if (bytes.bytes(source.shapeAt(resolved.position)) == made.worth.bytes)
+    made.worth.predicted_bytes = bytes.bytes(source.shapeAt(resolved.position));
+    if (made.worth.predicted_bytes == made.worth.bytes)
         ++sheet_.files_as_predicted;
     return known->second;
 }

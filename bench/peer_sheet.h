@@ -18,8 +18,9 @@ enum class PeerKind : std::uint8_t {
 struct Worth {
     std::uint64_t triangles = 0; // instances counted
     std::uint64_t instances = 0;
-    std::uint64_t bytes = 0; // of its file
-    double maximum = 0.0;    // distance, % of the diagonal
+    std::uint64_t bytes = 0;           // of its file
+    std::uint64_t predicted_bytes = 0; // before it was written; 0: not ours
+    double maximum = 0.0;              // distance, % of the diagonal
     double mean = 0.0;
     double flip = 0.0; // image difference, 0..1; not finite: no pictures
 };

@@ -69,9 +69,10 @@ Result<void> addCardRows(Bench& bench, const ScenePtr& scene);
 
 // --- in the program
 
-Result<void> addReadOutRows(Bench& bench); // after a slider has moved
-Result<void> addFileRows(Bench& bench);    // sizes, import, another ordering
-Result<void> addMemoryRows(Bench& bench);  // peak of a process of its own
+Result<void> addReadOutRows(Bench& bench);  // after a slider has moved
+Result<void> addFileRows(Bench& bench);     // sizes, import, another ordering
+Result<void> addDistanceRows(Bench& bench); // how fast it is measured
+Result<void> addMemoryRows(Bench& bench);   // peak of a process of its own
 
 // What that process does; prints its peak in bytes. Returns its exit code.
 int runMemoryChild();

@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
 # bench/run.sh [OPTIONS]: installs the peers, builds the release and measures; writes
-# bench/RESULTS.md and bench/peers.csv. Options go to lodestone_bench: --quick, --peers, ...
-# With options of your own, --out and --csv are yours to give as well.
+# bench/RESULTS.md and bench/peers.csv, anew after every part. Parts are kept in
+# build/release/bench-parts: broken off and started again at the same commit, it goes on where it
+# stopped. Options go to lodestone_bench (--quick, --peers, --only Maple, --again, ...); with options
+# of your own, --out and --csv are yours to give as well.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
@@ -27,4 +29,4 @@ cmake --build --preset release --target lodestone_bench
 if [ $# = 0 ]; then
     set -- --out bench/RESULTS.md --csv bench/peers.csv
 fi
-exec "$build/lodestone_bench" "$@"
+exec "$build/lodestone_bench" --parts "$build/bench-parts" "$@"

@@ -36,14 +36,6 @@ void Table::add(const Figure& figure) {
           << std::flush;
 }
 
-std::string Table::summary() const {
-    std::string text = fmt::format(
-        "{} of {} targets met.\n", met_, static_cast<std::size_t>(met_) + missed_.size());
-    for (const std::string& line : missed_)
-        text += "- missed: " + line + '\n';
-    return text;
-}
-
 void Table::tell(const std::string& what, const std::string& measured, const std::string& against) {
     add({what, measured, against, "", "", std::nullopt});
 }

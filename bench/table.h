@@ -24,7 +24,10 @@ public:
 
     void heading(const std::string& title);
     void add(const Figure& figure);
-    std::string summary() const; // how many were met, which were missed
+
+    int met() const { return met_; }
+
+    const std::vector<std::string>& missed() const { return missed_; } // with the headings
 
     // For information.
     void

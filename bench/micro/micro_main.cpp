@@ -1,11 +1,11 @@
 // lodestone_microbench: the hot paths in times of a reference kernel of the same run.
 #include "bench/micro/hot_paths.h"
 #include "bench/micro/ratios.h"
+#include "bench/program_main.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <benchmark/benchmark.h>
-#include <exception>
 #include <fmt/core.h>
 #include <iostream>
 #include <tbb/global_control.h>
@@ -137,10 +137,6 @@ int parseAndRun(int argc, char** argv) {
 } // namespace lodestone::bench
 
 int main(int argc, char** argv) {
-    try {
-        return lodestone::bench::parseAndRun(argc, argv);
-    } catch (const std::exception& exception) { // out of memory, or a bug
-        std::cerr << "lodestone_microbench: " << exception.what() << '\n';
-        return lodestone::exitCode(lodestone::ErrorKind::Failed);
-    }
+    using namespace lodestone::bench;
+    return programMain("lodestone_microbench", parseAndRun, argc, argv);
 }

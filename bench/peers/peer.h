@@ -29,10 +29,10 @@ struct PeerWeights {
 // A triangle list as the packages take it.
 struct PeerMesh {
     std::vector<glm::vec3> positions;
+    std::vector<std::uint32_t> indices; // [3 * triangles]
     // [PeerWeights::kValues * vertices], 0 where the mesh has none; empty where vertices are
     // welded.
-    std::vector<float> attributes;
-    std::vector<std::uint32_t> indices; // [3 * triangles]
+    std::vector<float> attributes = {};
 
     std::size_t triangleCount() const { return indices.size() / 3; }
 };

@@ -122,7 +122,7 @@ PeerInput::PeerInput(const Scene& scene, Welding welding, double ratio)
             Part part{s, p, {}, 0};
             part.mesh = welding == Welding::Positions
                             ? weldedMesh(stored)
-                            : PeerMesh{stored.positions, attributeValues(stored), stored.indices};
+                            : PeerMesh{stored.positions, stored.indices, attributeValues(stored)};
             part.triangle_target = static_cast<std::size_t>(
                 std::ceil(ratio * static_cast<double>(stored.triangleCount())));
             if (!part.mesh.indices.empty())

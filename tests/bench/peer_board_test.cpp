@@ -17,8 +17,8 @@ PeerSheet sheet() {
     row.name = "Peer";
     row.seconds = {1.0, 1.0, 1.0};
     row.time_ratio = 0.5;
-    row.ours = {100, 1, 1000, 0.5, 0.1, 0.01};
-    row.theirs = {100, 1, 995, 0.5, 0.2, 0.01};
+    row.ours = {100, 1, 1000, 1000, 0.5, 0.1, 0.01};
+    row.theirs = {100, 1, 995, 0, 0.5, 0.2, 0.01};
     made.rows.push_back(row);
     return made;
 }
