@@ -1,5 +1,6 @@
 #include "scene/scene_builder.h"
 
+#include "scene/gltf/quantization.h"
 #include "scene/gltf/source_document.h"
 
 #include <algorithm>
@@ -120,11 +121,14 @@ json pbrJson(json& document, const Material& material) {
     const glm::vec4& c = material.base_color;
     json pbr = json::object();
     if (c != glm::vec4(1.0f))
-        pbr["baseColorFactor"] = {c.r, c.g, c.b, c.a};
+        pbr["baseColorFactor"] = {shortNumber(static_cast<double>(c.r)),
+                                  shortNumber(static_cast<double>(c.g)),
+                                  shortNumber(static_cast<double>(c.b)),
+                                  shortNumber(static_cast<double>(c.a))};
     if (material.metallic != 1.0f)
-        pbr["metallicFactor"] = material.metallic;
+        pbr["metallicFactor"] = shortNumber(static_cast<double>(material.metallic));
     if (material.roughness != 1.0f)
-        pbr["roughnessFactor"] = material.roughness;
+        pbr["roughnessFactor"] = shortNumber(static_cast<double>(material.roughness));
     if (material.base_color_texture.image != kNone)
         pbr["baseColorTexture"] = textureInfo(document, material.base_color_texture);
     if (material.metallic_roughness_texture.image != kNone)
