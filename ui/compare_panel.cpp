@@ -75,17 +75,20 @@ void drawTitles(const Ui& ui, const ImVec2& begin, float width) {
     horizontalHairline(ui, begin.x, begin.x + width, begin.y + ui.px(kTitleHeight));
 }
 
-void drawCells(const Ui& ui, const Lane& lane, const ImVec2& begin, float y, float width) {
+void drawCells(
+    const Ui& ui, const PanelInput& input, const Lane& lane, const ImVec2& begin, float width) {
     const auto cells = cellsOf(lane);
+    const char* const certainty = isEstimated(input.document.export_options) ? "about" : "exact";
+    const float y = begin.y;
     for (std::size_t at = 0; at < cells.size(); ++at) {
         float right = begin.x + width * static_cast<float>(kColumns[at].right);
         if (at == 2 && lane.status.lod) {
             drawText(ui,
                      {right, y + ui.px(2)},
                      Align::Right,
-                     "exact",
+                     certainty,
                      {ui.theme.fonts.small, color::kSecondary});
-            right -= textWidth(ui, "exact", ui.theme.fonts.small) + ui.px(4);
+            right -= textWidth(ui, certainty, ui.theme.fonts.small) + ui.px(4);
         }
         const ImU32 ink = cells[at] == kUnknown ? color::kSecondary : color::kText;
         drawText(ui, {right, y}, Align::Right, cells[at], {nullptr, ink});
@@ -121,7 +124,7 @@ void drawRow(const Ui& ui,
         laneTargetSlider(
             ui, input, state, lane, width * static_cast<float>(kSliderEnd - kSliderBegin));
     }
-    drawCells(ui, lane, begin, y, width);
+    drawCells(ui, input, lane, {begin.x, y}, width);
     horizontalHairline(ui, begin.x, end.x, end.y - ui.theme.hairline());
     ImGui::PopID();
     ImGui::SetCursorScreenPos({begin.x, end.y});

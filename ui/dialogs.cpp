@@ -186,6 +186,7 @@ void drawExport(const Ui& ui, const PanelInput& input, WindowState& state) {
     for (const Instancing instancing : kInstancings)
         instancingRow(ui, input, lane->id, instancing, width);
     ImGui::Dummy({0, ui.px(6)});
+    sectionTitle(ui, "Compression");
     compressionCombo(ui, input);
     ImGui::Dummy({0, ui.px(6)});
     sectionTitle(ui, "File (.glb or .gltf)");

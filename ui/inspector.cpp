@@ -212,7 +212,11 @@ void drawExport(const Ui& ui, const PanelInput& input, WindowState& state, const
             original = &other;
     const std::uint64_t size_bytes = ready ? lane->status.numbers.predicted_bytes : 0;
     gap(ui, 0);
-    labelledValue(ui, "Size", ready ? formatBytes(size_bytes) : kUnknown, ready ? "exact" : "");
+    const bool estimated = isEstimated(document.export_options);
+    labelledValue(ui,
+                  "Size",
+                  ready ? (estimated ? "~" : "") + formatBytes(size_bytes) : kUnknown,
+                  ready && !estimated ? "exact" : "");
     labelledValue(ui,
                   "vs. original",
                   ready && original
