@@ -150,13 +150,15 @@ bool ComponentMesh::tryCollapse(std::uint32_t a,
         return false;
     if (strictness == Strictness::Manifold && !keepsTopology(a, b))
         return false;
+    pairWedges(a, b);
+    if (!(options_.seams > 0.0) && releasesSeam(a, b))
+        return false;
 
     const auto add_up = [&](const Quadric& of_a, const Quadric& of_b) {
         return sum(translated(of_a, target - from_a), translated(of_b, target - from_b));
     };
     Quadric merged = add_up(metrics_[a].quadric, metrics_[b].quadric);
     Quadric shape = merged; // the error as a distance leaves attributes out
-    pairWedges(a, b);
     if (wedge_quadrics_.active()) {
         merged = sum(merged, mergeWedgeQuadrics(a, b, target));
         shapes_[a] = shape = add_up(shapes_[a], shapes_[b]);
@@ -177,103 +179,6 @@ bool ComponentMesh::tryCollapse(std::uint32_t a,
     else
         mergeWedges(a, t);
     return true;
-}
-
-std::uint32_t ComponentMesh::wedgeAt(std::uint32_t face, std::uint32_t vertex) const {
-    if (face_wedges_.empty())
-        return vertex_ids_[vertex];
-    const Corners& corners = faces_[face];
-    return face_wedges_[face][corners[0] == vertex ? 0 : corners[1] == vertex ? 1 : 2];
-}
-
-// Which wedges become one when b goes into a: those that meet in a face on the edge, and with a
-// seam that ends at one of both its two sides.
-void ComponentMesh::pairWedges(std::uint32_t a, std::uint32_t b) {
-    merged_wedges_.clear();
-    if (face_wedges_.empty()) {
-        merged_wedges_.push_back({vertex_ids_[a], vertex_ids_[b], vertex_ids_[b], vertex_ids_[a]});
-        return;
-    }
-    const auto become = [&](std::uint32_t wedge) {
-        for (const MergedWedges& merged : merged_wedges_)
-            if (merged.from == wedge)
-                wedge = merged.into;
-        return wedge;
-    };
-    for (const std::uint32_t f : facesAround(a)) {
-        if (std::ranges::find(faces_[f], b) == faces_[f].end())
-            continue;
-        const std::uint32_t of_a = wedgeAt(f, a);
-        const std::uint32_t of_b = wedgeAt(f, b);
-        const std::uint32_t from = become(of_b);
-        const std::uint32_t into = become(of_a);
-        if (from != into)
-            merged_wedges_.push_back({of_a, of_b, from, into});
-    }
-}
-
-// Moves the predictions of all wedges of both ends to the target and merges those that become one.
-// Result: what the vertex's quadric gains, about the target.
-Quadric ComponentMesh::mergeWedgeQuadrics(std::uint32_t a, std::uint32_t b, Float3 target) {
-    const auto move_all = [&](std::uint32_t v) {
-        std::vector<std::uint32_t>& wedges = scratch_;
-        wedges.clear();
-        for (const std::uint32_t f : facesAround(v))
-            wedges.push_back(wedgeAt(f, v));
-        std::ranges::sort(wedges);
-        wedges.erase(std::unique(wedges.begin(), wedges.end()), wedges.end());
-        for (const std::uint32_t wedge : wedges)
-            wedge_quadrics_.move(wedge, target - points_[v].position);
-    };
-    move_all(a);
-    move_all(b);
-    Quadric gained;
-    for (const MergedWedges& merged : merged_wedges_)
-        gained = sum(gained, wedge_quadrics_.merge(merged.into, merged.from));
-    return gained;
-}
-
-// Sets the values that count to the best ones where the wedge lies now.
-void ComponentMesh::takeBestValues(std::uint32_t wedge) {
-    float* values = values_.data() + std::size_t{wedge} * attributes_.size;
-    const std::vector<CountedValue>& counted = counted_[wedge_primitive_[wedge]];
-    constexpr float kOpposite2 = 1e-6f; // opposite directions cancel: then the blended one stays
-    for (std::size_t i = 0; i < counted.size();) {
-        const auto best = [&](std::size_t at) {
-            return wedge_quadrics_.value(wedge, at) / counted[at].scale;
-        };
-        if (!counted[i].unit) {
-            values[counted[i].offset] = std::clamp(best(i), counted[i].low, counted[i].high);
-            ++i;
-            continue;
-        }
-        const Float3 direction{best(i), best(i + 1), best(i + 2)};
-        const float length2 = dot(direction, direction);
-        if (length2 > kOpposite2) {
-            const Float3 unit = direction * (1.0f / std::sqrt(length2));
-            values[counted[i].offset] = unit.x;
-            values[counted[i].offset + 1] = unit.y;
-            values[counted[i].offset + 2] = unit.z;
-        }
-        i += 3;
-    }
-}
-
-// Every vertex is its own wedge.
-void ComponentMesh::mergeSingleWedges(std::uint32_t a, std::uint32_t b, float t) {
-    const std::uint32_t into = vertex_ids_[a];
-    blendValues(into, vertex_ids_[b], t);
-    if (wedge_quadrics_.active())
-        takeBestValues(into);
-    killWedge(vertex_ids_[b], into);
-    if (alive(a))
-        addVersion(into, points_[a].position);
-    else
-        killWedge(into, kNone);
-    for (const std::uint32_t f : dying_)
-        for (const std::uint32_t v : faces_[f])
-            if (!alive(v) && log_.wedge_death[vertex_ids_[v]] == kNone)
-                killWedge(vertex_ids_[v], kNone);
 }
 
 void ComponentMesh::dropReference(std::uint32_t v, std::uint32_t face) {
@@ -314,103 +219,6 @@ void ComponentMesh::mergeFaces(std::uint32_t a, std::uint32_t b) {
         corners[corners[0] == b ? 0 : corners[1] == b ? 1 : 2] = a;
         *to++ = face.face;
     }
-}
-
-void ComponentMesh::killWedge(std::uint32_t wedge, std::uint32_t parent) {
-    log_.wedge_death[wedge] = step();
-    log_.wedge_parent[wedge] = parent;
-    log_.kill_order.push_back(wedge);
-}
-
-void ComponentMesh::releaseWedge(std::uint32_t wedge) {
-    if (wedge_refs_[wedge] == 0 && log_.wedge_death[wedge] == kNone)
-        killWedge(wedge, kNone);
-}
-
-void ComponentMesh::blendValues(std::uint32_t into, std::uint32_t from, float t) {
-    if (attributes_.carries && t > 0.5f)
-        wedge_carrier_[into] = wedge_carrier_[from];
-    if (attributes_.size == 0)
-        return;
-    float* to = values_.data() + std::size_t{into} * attributes_.size;
-    const float* other = values_.data() + std::size_t{from} * attributes_.size;
-    constexpr float kOpposite2 = 1e-6f; // opposite directions cancel: then the first one stays
-    for (const WedgeAttributes::Slot& slot : attributes_.slots[wedge_primitive_[into]]) {
-        const std::uint32_t blended = slot.tangent ? 3 : slot.components;
-        float length2 = 0.0f;
-        for (std::uint32_t c = slot.offset; c < slot.offset + blended; ++c) {
-            const float value = to[c] + (other[c] - to[c]) * t;
-            length2 += value * value;
-        }
-        if (slot.unit && !(length2 > kOpposite2))
-            continue;
-        const float scale = slot.unit ? 1.0f / std::sqrt(length2) : 1.0f;
-        for (std::uint32_t c = slot.offset; c < slot.offset + blended; ++c)
-            to[c] = (to[c] + (other[c] - to[c]) * t) * scale;
-        if (slot.tangent && slot.components == 4 && t > 0.5f)
-            to[slot.offset + 3] = other[slot.offset + 3];
-    }
-}
-
-// Wedges that meet in a face on the edge become one; the others of b move to a as they are, so that
-// seams stay seams and no crack opens.
-void ComponentMesh::mergeWedges(std::uint32_t a, float t) {
-    std::vector<std::uint32_t>& touched = scratch_;
-    touched.clear();
-    for (const std::uint32_t f : dying_)
-        for (const std::uint32_t wedge : face_wedges_[f]) {
-            --wedge_refs_[wedge];
-            touched.push_back(wedge);
-        }
-    for (const auto& [of_a, of_b, from, into] : merged_wedges_) {
-        blendValues(into, from, from == of_b ? t : 0.5f);
-        wedge_refs_[into] += wedge_refs_[from];
-        wedge_refs_[from] = 0;
-        killWedge(from, into);
-    }
-    for (const std::uint32_t f : facesAround(a)) {
-        const std::size_t k = faces_[f][0] == a ? 0 : faces_[f][1] == a ? 1 : 2;
-        std::uint32_t& wedge = face_wedges_[f][k];
-        for (const MergedWedges& merged : merged_wedges_)
-            if (wedge == merged.from)
-                wedge = merged.into;
-        touched.push_back(wedge);
-    }
-    std::ranges::sort(touched);
-    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-    for (const std::uint32_t wedge : touched)
-        releaseWedge(wedge);
-    for (const std::uint32_t f : facesAround(a)) {
-        const std::size_t k = faces_[f][0] == a ? 0 : faces_[f][1] == a ? 1 : 2;
-        const std::uint32_t wedge = face_wedges_[f][k];
-        // The first corner with it adds the version: wedges in order of faces, each once.
-        const bool seen = !log_.version_wedge.empty() && [&] {
-            for (std::size_t i = log_.version_wedge.size(); i-- > 0;) {
-                if (log_.version_step[i] != step())
-                    return false;
-                if (log_.version_wedge[i] == wedge)
-                    return true;
-            }
-            return false;
-        }();
-        if (seen)
-            continue;
-        if (wedge_quadrics_.active())
-            takeBestValues(wedge);
-        addVersion(wedge, points_[a].position);
-    }
-}
-
-void ComponentMesh::addVersion(std::uint32_t wedge, Float3 position) {
-    const glm::dvec3 p(position.x, position.y, position.z);
-    log_.version_wedge.push_back(wedge);
-    log_.version_step.push_back(step());
-    log_.version_position.emplace_back(origin_ + p * scale_);
-    if (attributes_.carries)
-        log_.version_carrier.push_back(wedge_carrier_[wedge]);
-    const auto from =
-        values_.begin() + static_cast<std::ptrdiff_t>(std::size_t{wedge} * attributes_.size);
-    log_.version_values.insert(log_.version_values.end(), from, from + attributes_.size);
 }
 
 } // namespace lodestone

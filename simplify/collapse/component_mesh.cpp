@@ -134,6 +134,7 @@ void ComponentMesh::buildWedges() {
     log_.wedge_parent.assign(wedges, kNone);
     vertex_ids_.clear();
     wedge_refs_.clear();
+    wedge_counts_.clear();
     gatherValues();
     if (wedges == points_.size()) { // one each, and numbered alike: both by first use
         face_wedges_.clear();
@@ -145,6 +146,16 @@ void ComponentMesh::buildWedges() {
     for (const Corners& corners : face_wedges_)
         for (const std::uint32_t wedge : corners)
             ++wedge_refs_[wedge];
+    if (options_.seams >= 1.0)
+        return;
+    wedge_counts_.assign(points_.size(), 0);
+    std::vector<bool> counted(wedges, false);
+    for (std::size_t f = 0; f < faces_.size(); ++f)
+        for (std::size_t k = 0; k < 3; ++k)
+            if (!counted[face_wedges_[f][k]]) {
+                counted[face_wedges_[f][k]] = true;
+                ++wedge_counts_[faces_[f][k]];
+            }
 }
 
 // Attributes of the component's wedges, and which primitive says what they are.
@@ -181,6 +192,8 @@ std::span<const std::uint32_t> ComponentMesh::compact() {
         metrics_[vertices] = metrics_[v];
         if (!shapes_.empty())
             shapes_[vertices] = shapes_[v];
+        if (!wedge_counts_.empty())
+            wedge_counts_[vertices] = wedge_counts_[v];
         rings_[vertices] = rings_[v];
         if (!vertex_ids_.empty())
             vertex_ids_[vertices] = vertex_ids_[v];
@@ -265,9 +278,11 @@ bool ComponentMesh::seamBetween(std::uint32_t face_a,
             return values_.begin() +
                    static_cast<std::ptrdiff_t>(std::size_t{wedge} * attributes_.size + slot.offset);
         };
-        return !slot.unit && !std::equal(at(m), at(m) + slot.components, at(n));
+        const bool shows = slot.kind == WedgeAttributes::Kind::Texcoord ||
+                           slot.kind == WedgeAttributes::Kind::Color;
+        return shows && !std::equal(at(m), at(m) + slot.components, at(n));
     };
-    return std::ranges::any_of(attributes_.slots[wedge_primitive_[m]], differs);
+    return std::ranges::any_of(attributes_.primitives[wedge_primitive_[m]].slots, differs);
 }
 
 // Borders: edges with one face, or with two that lie back to back. Seams get the same constraint,

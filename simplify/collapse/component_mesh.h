@@ -5,6 +5,7 @@
 #include "simplify/collapse/complex.h"
 #include "simplify/collapse/instance_weights.h"
 #include "simplify/collapse/quadric.h"
+#include "simplify/collapse/wedge_attributes.h"
 #include "simplify/collapse/wedge_quadric.h"
 
 #include <atomic>
@@ -16,6 +17,7 @@ struct AttributeWeights {
     double texcoord = 0.5; // 1: a texture sliding by some way counts as a surface off by as much
     double normal = 0.25;  // 1: a radian counts as a surface off by an edge's length
     double color = 0.25;   // 1: black for white counts as a surface off by an edge's length
+    double motion = 1.0;   // 1: off in a morph target or a joint's motion counts as off at rest
 };
 
 struct CollapseOptions {
@@ -23,31 +25,11 @@ struct CollapseOptions {
     bool boundary_by_length = false; // paper-literal: weight by length instead of squared length
     double flip_angle_deg = 80.0;    // collapses that turn a face further are rejected, 0..180
     AttributeWeights attributes;
+    // Collapses that end a seam or merge two, 0..1. 0: never. Else they cost 1 / this more.
+    double seams = 1.0;
     // Components with more faces are picked in near-greedy passes down to the second number.
     std::uint32_t near_greedy_above = 24'000;
     std::uint32_t exact_below = 6'000;
-};
-
-// Float attributes of wedges that are interpolated (normals, texture coordinates, colours);
-// the rest is taken from the nearest original wedge.
-struct WedgeAttributes {
-    std::uint32_t size = 0;    // floats a wedge
-    std::vector<float> values; // [wedges * size], all wedges of the complex
-
-    struct Slot {
-        std::uint32_t offset = 0;
-        std::uint32_t components = 0;
-        bool unit = false;    // renormalise after interpolation
-        bool tangent = false; // xyz unit, w a sign
-        bool texcoord = false;
-        std::array<float, 4> low{}; // what the file's values span
-        std::array<float, 4> high{};
-    };
-
-    std::vector<std::vector<Slot>>
-        slots;            // [primitives][attributes], components 0: not interpolated
-    bool carries = false; // some attribute or morph target is taken from the nearest wedge
-    double spacing = 0.0; // root of two faces' mean area: about the length of an edge
 };
 
 // What happened to one component, in local ids; step numbers start at 1.
@@ -192,6 +174,7 @@ private:
     void addFaceQuadric(std::uint32_t face);
     float faceWeight(std::uint32_t face) const; // 0: counts for nothing
     void chooseValues();
+    float valueScale(std::uint32_t primitive, const WedgeAttributes::Slot& slot) const;
     float texcoordScale(std::uint32_t primitive, const WedgeAttributes::Slot& slot) const;
     void buildWedgeQuadrics();
     void scaledValues(std::uint32_t wedge, std::span<float> out) const;
@@ -206,7 +189,7 @@ private:
 
     bool folded(std::uint32_t face_a, std::uint32_t face_b) const;
     // Keys of the spokes' edges, four at a time.
-    template <bool WithAttributes>
+    template <bool WithWedges>
     void costSpokeEdges(std::uint32_t v);
     void addMerges(const std::array<std::size_t, 4>& spokes,
                    const Vector3<Float4>& half,
@@ -223,6 +206,7 @@ private:
     void mergeFaces(std::uint32_t a, std::uint32_t b);
     void killFace(std::uint32_t face);
     void dropReference(std::uint32_t v, std::uint32_t face);
+    bool releasesSeam(std::uint32_t a, std::uint32_t b) const;
     std::uint32_t wedgeAt(std::uint32_t face, std::uint32_t vertex) const;
     void pairWedges(std::uint32_t a, std::uint32_t b);
     Quadric mergeWedgeQuadrics(std::uint32_t a, std::uint32_t b, Float3 target);
@@ -277,6 +261,8 @@ private:
     };
 
     std::vector<std::vector<CountedValue>> counted_;
+    float motion_scale_ = 0.0f;               // 0: motion does not count
+    std::vector<std::uint32_t> wedge_counts_; // [vertices] empty: one each, or seams are free to go
     std::uint32_t live_faces_ = 0;
 
     std::vector<Float3> normals_;          // [faces] unit, at the start; 0 where degenerate
@@ -305,6 +291,7 @@ private:
     std::vector<float> spoke_key_memory_;
     // Wedges that meet along a spoke, {v's, the other's}, on up to two sides; kNone: none.
     using SpokePairs = std::array<std::array<std::uint32_t, 2>, 2>;
+    bool releasesSeam(std::uint32_t v, std::uint32_t other, const SpokePairs& pairs) const;
     std::vector<SpokePairs> spoke_pairs_;
     std::vector<std::uint32_t> scratch_;
     CollapseLog log_;
@@ -340,7 +327,7 @@ ComponentMesh::Spokes ComponentMesh::costSpokes(std::uint32_t v, Accept accept) 
         }
     spokes_ = {found, count};
     spoke_keys_ = {spoke_key_memory_.data(), count};
-    if (wedge_quadrics_.active()) {
+    if (wedge_quadrics_.active() || !wedge_counts_.empty()) {
         gatherSpokePairs(v);
         costSpokeEdges<true>(v);
     } else {

@@ -1,5 +1,7 @@
 #include "simplify/collapse/edge_collapse_source.h"
 
+#include "simplify/collapse/seam_count.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -14,12 +16,17 @@ double secondsSince(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+// What seams may do, as CollapseOptions::seams says.
+enum class Seams : std::uint8_t { Strict, MayGo };
+
 class EdgeCollapseSource final : public LodSource {
 public:
     EdgeCollapseSource(std::shared_ptr<const SequenceSet> set,
+                       Seams seams,
                        const ScheduleOptions& options,
                        const ByteModel* bytes)
-        : set_(std::move(set)), options_(options), schedule_(*set_, options, bytes) {}
+        : set_(std::move(set)), seams_(seams), options_(options), schedule_(*set_, options, bytes) {
+    }
 
     const ScenePtr& scene() const override { return set_->scene; }
 
@@ -38,7 +45,7 @@ public:
     LodSourcePtr rescheduled(const ScheduleOptions& options,
                              const ByteModel& bytes) const override {
         const auto start = std::chrono::steady_clock::now();
-        auto other = std::make_shared<EdgeCollapseSource>(set_, options, &bytes);
+        auto other = std::make_shared<EdgeCollapseSource>(set_, seams_, options, &bytes);
         other->seconds_sequence = seconds_sequence;
         other->seconds_schedule = secondsSince(start);
         return other;
@@ -63,9 +70,11 @@ private:
     }
 
     std::string whyMissed() const;
+    std::string whatSeamsHold() const;
     void fillSubmesh(std::size_t s, SubmeshState state, Lod& lod) const;
 
     std::shared_ptr<const SequenceSet> set_;
+    Seams seams_;
     ScheduleOptions options_;
     Schedule schedule_;
 };
@@ -95,6 +104,24 @@ LodShape EdgeCollapseSource::shapeAt(std::uint64_t position) const {
     return shape;
 }
 
+// How many of the vertices that are left lie on seams that must stay.
+std::string EdgeCollapseSource::whatSeamsHold() const {
+    SeamCount all;
+    for (std::size_t s = 0; s < set_->sequences.size(); ++s) {
+        const SubmeshState state = schedule_.stateAt(s, positionCount() - 1);
+        const SeamCount count =
+            countOnSeams(set_->sequences[s], set_->scene->submeshes[s], state.step);
+        all.vertices += count.vertices;
+        all.on_seams += count.on_seams;
+    }
+    if (all.on_seams == 0)
+        return {};
+    const double percent =
+        100.0 * static_cast<double>(all.on_seams) / static_cast<double>(all.vertices);
+    return ", or held by its seams: " + std::to_string(std::lround(percent)) +
+           " % of remaining vertices lie on seams; a higher 'seams' lets their corners go";
+}
+
 std::string EdgeCollapseSource::whyMissed() const {
     const bool locked = std::ranges::find(options_.locked, true) != options_.locked.end();
     std::string why =
@@ -102,7 +129,7 @@ std::string EdgeCollapseSource::whyMissed() const {
         "of its extent, one instance)";
     if (locked)
         why += " or locked";
-    return why;
+    return seams_ == Seams::Strict ? why + whatSeamsHold() : why;
 }
 
 Resolved EdgeCollapseSource::resolve(const Target& target, const ByteModel& bytes) const {
@@ -239,7 +266,11 @@ Result<LodSourcePtr> prepareEdgeCollapse(ScenePtr scene,
     std::optional<ByteModel> bytes; // costs as much as a small scene's sequences
     if (schedule.ordering == Ordering::Byte)
         bytes.emplace(set->scene, ExportOptions{});
-    auto source = std::make_shared<EdgeCollapseSource>(set, schedule, bytes ? &*bytes : nullptr);
+    auto source = std::make_shared<EdgeCollapseSource>(set,
+                                                       options.collapse.seams > 0.0 ? Seams::MayGo
+                                                                                    : Seams::Strict,
+                                                       schedule,
+                                                       bytes ? &*bytes : nullptr);
     source->seconds_sequence = sequence_seconds;
     source->seconds_schedule = secondsSince(schedule_start);
     return source;

@@ -36,34 +36,47 @@ float ComponentMesh::texcoordScale(std::uint32_t primitive,
     return std::isfinite(scale) ? static_cast<float>(scale) : 0.0f;
 }
 
+// What makes an attribute's values lengths; 0: they do not count.
+float ComponentMesh::valueScale(std::uint32_t primitive, const WedgeAttributes::Slot& slot) const {
+    const AttributeWeights& weights = options_.attributes;
+    const double spacing = attributes_.spacing / scale_;
+    switch (slot.kind) {
+    case WedgeAttributes::Kind::Normal:
+        return static_cast<float>(spacing * weights.normal);
+    case WedgeAttributes::Kind::Color:
+        return static_cast<float>(spacing * weights.color);
+    case WedgeAttributes::Kind::Texcoord:
+        return weights.texcoord > 0.0
+                   ? static_cast<float>(weights.texcoord) * texcoordScale(primitive, slot)
+                   : 0.0f;
+    default:
+        return 0.0f;
+    }
+}
+
 // Sets which values count and resets the wedges' quadrics.
 void ComponentMesh::chooseValues() {
-    const auto spacing = static_cast<float>(attributes_.spacing / scale_);
-    const AttributeWeights& weights = options_.attributes;
-    counted_.assign(attributes_.slots.size(), {});
-    std::size_t count = 0;
+    counted_.assign(attributes_.primitives.size(), {});
     std::vector<bool> present(counted_.size(), false);
     for (const std::uint32_t primitive : wedge_primitive_)
         present[primitive] = true;
+    std::size_t count = 0;
     for (std::uint32_t p = 0; p < counted_.size(); ++p) {
         if (!present[p])
             continue;
-        for (const WedgeAttributes::Slot& slot : attributes_.slots[p]) {
-            float scale = 0.0f;
-            if (slot.tangent || slot.components == 0)
-                continue;
-            if (slot.unit)
-                scale = spacing * static_cast<float>(weights.normal);
-            else if (!slot.texcoord)
-                scale = spacing * static_cast<float>(weights.color);
-            else if (weights.texcoord > 0.0)
-                scale = static_cast<float>(weights.texcoord) * texcoordScale(p, slot);
+        for (const WedgeAttributes::Slot& slot : attributes_.primitives[p].slots) {
+            const float scale = valueScale(p, slot);
+            const bool unit = slot.kind == WedgeAttributes::Kind::Normal;
             for (std::uint32_t c = 0; scale > 0.0f && c < slot.components; ++c)
                 counted_[p].push_back(
-                    {slot.offset + c, scale, slot.low[c], slot.high[c], slot.unit && c == 0});
+                    {slot.offset + c, scale, slot.low[c], slot.high[c], unit && c == 0});
         }
         count = std::max(count, counted_[p].size());
     }
+    motion_scale_ =
+        attributes_.motion.empty() ? 0.0f : static_cast<float>(options_.attributes.motion / scale_);
+    if (motion_scale_ > 0.0f)
+        count += WedgeAttributes::kMotionValues;
     wedge_quadrics_.reset(log_.wedges.size(), count);
     shapes_.clear();
 }
@@ -78,6 +91,15 @@ void ComponentMesh::scaledValues(std::uint32_t wedge, std::span<float> out) cons
     for (std::size_t i = 0; i < counted.size(); ++i) {
         const float value = values[counted[i].offset] * counted[i].scale;
         out[i] = std::isfinite(value) ? std::clamp(value, -kMost, kMost) : 0.0f;
+    }
+    if (!(motion_scale_ > 0.0f))
+        return;
+    const float* motion = attributes_.motion.data() +
+                          std::size_t{log_.wedges[wedge]} * WedgeAttributes::kMotionValues;
+    for (std::size_t m = 0; m < WedgeAttributes::kMotionValues; ++m) {
+        const float value = motion[m] * motion_scale_;
+        out[out.size() - WedgeAttributes::kMotionValues + m] =
+            std::isfinite(value) ? std::clamp(value, -kMost, kMost) : 0.0f;
     }
 }
 
@@ -161,11 +183,22 @@ void ComponentMesh::gatherSpokePairs(std::uint32_t v) {
     }
 }
 
+// Whether a seam ends or two seams merge when an edge collapses: every wedge of one end must find
+// one of its own at the other.
+bool ComponentMesh::releasesSeam(std::uint32_t v,
+                                 std::uint32_t other,
+                                 const SpokePairs& pairs) const {
+    const std::uint32_t least = std::min(wedge_counts_[v], wedge_counts_[other]);
+    if (pairs[1][0] == kNone)
+        return least > 1;
+    return least != 2 || pairs[0][0] == pairs[1][0] || pairs[0][1] == pairs[1][1];
+}
+
 // What merging the wedges along four spokes costs.
 void ComponentMesh::addMerges(const std::array<std::size_t, 4>& spokes,
                               const Vector3<Float4>& half,
                               QuadricOf<Float4>& sum) const {
-    for (std::size_t side = 0; side < 2; ++side) {
+    for (std::size_t side = 0; wedge_quadrics_.active() && side < 2; ++side) {
         std::array<std::uint32_t, 4> own{};
         std::array<std::uint32_t, 4> other{};
         Float4 share{};
@@ -221,7 +254,7 @@ QuadricOf<Float4> lanes(const std::array<const Quadric*, 4>& q) {
 
 } // namespace
 
-template <bool WithAttributes>
+template <bool WithWedges>
 void ComponentMesh::costSpokeEdges(std::uint32_t v) {
     const QuadricOf<Float4> first = inAllLanes(metrics_[v].quadric);
     const Vector3<Float4> from = positionsOf({v, v, v, v});
@@ -238,12 +271,16 @@ void ComponentMesh::costSpokeEdges(std::uint32_t v) {
                                                 &metrics_[id[2]].quadric,
                                                 &metrics_[id[3]].quadric});
         QuadricOf<Float4> sum = sumAtMiddle(first, second, half);
-        if constexpr (WithAttributes)
+        if constexpr (WithWedges)
             addMerges(spoke, half, sum);
         const PlacementOf<Float4> placed = placeMerged(sum, first.c + second.c, half);
         for (std::size_t lane = 0; lane < std::min<std::size_t>(4, spokes_.size() - i); ++lane)
             spoke_keys_[i + lane] = placed.key[lane];
     }
+    if constexpr (WithWedges)
+        for (std::size_t i = 0; options_.seams > 0.0 && i < spokes_.size(); ++i)
+            if (!wedge_counts_.empty() && releasesSeam(v, spokes_[i], spoke_pairs_[i]))
+                spoke_keys_[i] /= static_cast<float>(options_.seams);
 }
 
 template void ComponentMesh::costSpokeEdges<false>(std::uint32_t v);

@@ -63,6 +63,21 @@ std::vector<ParameterInfo> collapseParameters() {
         "How much vertex colours count. 1: black for white counts as a surface that is off by an "
         "edge's length. 0: they are only carried along.",
         weights.color));
+    parameters.push_back(weightParameter("motion-weight",
+                                         "Motion weight",
+                                         "How much morph targets and joints count. 1: a surface "
+                                         "that is off while it moves counts as "
+                                         "one off at rest. 0: they are only carried along.",
+                                         weights.motion));
+    ParameterInfo seams;
+    seams.id = "seams";
+    seams.label = "Seams permissive";
+    seams.tooltip =
+        "What may happen to corners and ends of texture, normal, colour and material seams. 0: "
+        "strict, they stay. 1: permissive, they go where that costs least. Between: it costs as "
+        "many times more.";
+    seams.fallback = CollapseOptions{}.seams;
+    parameters.push_back(seams);
     return parameters;
 }
 
@@ -102,6 +117,8 @@ Result<EdgeCollapseOptions> readCollapseParameters(const Algorithm& algorithm,
     weights.texcoord = parameterValue(algorithm, values, "uv-weight");
     weights.normal = parameterValue(algorithm, values, "normal-weight");
     weights.color = parameterValue(algorithm, values, "color-weight");
+    weights.motion = parameterValue(algorithm, values, "motion-weight");
+    options.collapse.seams = parameterValue(algorithm, values, "seams");
     options.remove_instances = parameterValue(algorithm, values, "remove-instances") > 0.5;
     options.remove_by_paper = parameterValue(algorithm, values, "removal-rule") > 0.5;
     return options;

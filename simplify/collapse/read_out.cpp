@@ -86,6 +86,11 @@ struct ReadOut {
                      const WedgeAttributes::Slot& slot,
                      const Attribute& from,
                      Attribute& to) const;
+    void fillAttribute(const AliveWedges& alive,
+                       const WedgeAttributes::Slot& slot,
+                       const Attribute& from,
+                       Attribute& to) const;
+    void settleWeights(const AliveWedges& alive, std::vector<Attribute>& attributes) const;
     void fillIndices(std::size_t primitive, Geometry& to) const;
     GeometryPtr readPrimitive(std::size_t primitive);
 };
@@ -168,6 +173,35 @@ void ReadOut::fillBlended(const AliveWedges& alive,
     });
 }
 
+void ReadOut::fillAttribute(const AliveWedges& alive,
+                            const WedgeAttributes::Slot& slot,
+                            const Attribute& from,
+                            Attribute& to) const {
+    if (slot.kind == WedgeAttributes::Kind::Carried)
+        fillCarried(alive, from, to);
+    else
+        fillBlended(alive, slot, from, to);
+}
+
+// Weights stored as integers must sum to 1 to the last bit: the first, strongest one takes what
+// rounding left over.
+void ReadOut::settleWeights(const AliveWedges& alive, std::vector<Attribute>& attributes) const {
+    std::vector<Attribute*> sets;
+    for (Attribute& attribute : attributes)
+        if (attribute.semantic.starts_with("WEIGHTS_") && attribute.normalized)
+            sets.push_back(&attribute);
+    for (std::size_t i = 0; !sets.empty() && i < alive.wedges.size(); ++i) {
+        if (alive.versions[i] == kNone)
+            continue;
+        float sum = 0.0f;
+        for (const Attribute* set : sets)
+            for (std::size_t c = 0; c < set->components; ++c)
+                sum += attributeValue(*set, i, c);
+        if (sum > 0.0f)
+            setAttributeValue(*sets[0], i, 0, attributeValue(*sets[0], i, 0) + 1.0f - sum);
+    }
+}
+
 void ReadOut::fillIndices(std::size_t primitive, Geometry& to) const {
     const Complex& complex = sequence.complex;
     to.indices.resize(std::size_t{3} * sequence.counts[primitive].faces[step]);
@@ -189,20 +223,20 @@ GeometryPtr ReadOut::readPrimitive(std::size_t primitive) {
     auto to = std::make_shared<Geometry>();
     const AliveWedges alive = findAlive(primitive);
     fillPositions(alive, from, *to);
+    const WedgeAttributes::PrimitiveLayout& layout = sequence.attributes.primitives[primitive];
     for (std::size_t a = 0; a < from.attributes.size(); ++a) {
-        const WedgeAttributes::Slot& slot = sequence.attributes.slots[primitive][a];
+        const WedgeAttributes::Slot& slot = layout.slots[a];
         to->attributes.push_back(emptyLike(from.attributes[a], alive.wedges.size()));
-        if (slot.components > 0)
-            fillBlended(alive, slot, from.attributes[a], to->attributes.back());
-        else
-            fillCarried(alive, from.attributes[a], to->attributes.back());
+        fillAttribute(alive, slot, from.attributes[a], to->attributes.back());
     }
-    for (const MorphTarget& target : from.morph_targets) {
-        to->morph_targets.emplace_back();
-        for (const Attribute& attribute : target.attributes) {
-            std::vector<Attribute>& out = to->morph_targets.back().attributes;
+    if (!layout.skin.empty())
+        settleWeights(alive, to->attributes);
+    for (std::size_t t = 0; t < from.morph_targets.size(); ++t) {
+        std::vector<Attribute>& out = to->morph_targets.emplace_back().attributes;
+        for (std::size_t a = 0; a < from.morph_targets[t].attributes.size(); ++a) {
+            const Attribute& attribute = from.morph_targets[t].attributes[a];
             out.push_back(emptyLike(attribute, alive.wedges.size()));
-            fillCarried(alive, attribute, out.back());
+            fillAttribute(alive, layout.morph_slots[t][a], attribute, out.back());
             if (attribute.semantic == "POSITION" && scale != 1.0)
                 scaleValues(out.back(), static_cast<float>(scale));
         }

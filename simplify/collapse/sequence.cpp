@@ -6,7 +6,6 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <numeric>
 #include <tbb/blocked_range.h>
@@ -20,80 +19,6 @@ std::uint32_t CollapseSequence::facesAt(std::uint32_t step) const {
     for (const PrimitiveCounts& primitive : counts)
         faces += primitive.faces[step];
     return faces;
-}
-
-// --- attributes
-
-namespace {
-
-bool isInterpolated(std::string_view semantic) {
-    return semantic == "NORMAL" || semantic == "TANGENT" || semantic.starts_with("TEXCOORD_") ||
-           semantic.starts_with("COLOR_");
-}
-
-// Without faces that reach absurdly far out.
-double spacingOf(const Complex& complex) {
-    double area = 0.0;
-    std::size_t faces = 0;
-    for (const std::array<std::uint32_t, 3>& face : complex.faces) {
-        std::array<glm::dvec3, 3> p;
-        for (std::size_t k = 0; k < 3; ++k)
-            p[k] = glm::dvec3(complex.positions[complex.wedge_vertex[face[k]]]);
-        if (!std::ranges::all_of(p, [&](const auto& corner) { return complex.bulk.holds(corner); }))
-            continue;
-        area += 0.5 * glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
-        ++faces;
-    }
-    return faces > 0 ? std::sqrt(2.0 * area / static_cast<double>(faces)) : 0.0;
-}
-
-} // namespace
-
-WedgeAttributes gatherAttributes(const Submesh& submesh, const Complex& complex) {
-    WedgeAttributes all;
-    for (const Primitive& primitive : submesh.primitives) {
-        std::vector<WedgeAttributes::Slot> slots;
-        std::uint32_t offset = 0;
-        if (primitive.mode == PrimitiveMode::Triangles) {
-            all.carries |= !primitive.geometry->morph_targets.empty();
-            for (const Attribute& attribute : primitive.geometry->attributes) {
-                WedgeAttributes::Slot slot;
-                if (isInterpolated(attribute.semantic)) {
-                    slot.offset = offset;
-                    slot.components = attribute.components;
-                    slot.tangent = attribute.semantic == "TANGENT";
-                    slot.unit = slot.tangent || attribute.semantic == "NORMAL";
-                    slot.texcoord = attribute.semantic.starts_with("TEXCOORD_");
-                    offset += attribute.components;
-                } else {
-                    all.carries = true;
-                }
-                slots.push_back(slot);
-            }
-        }
-        all.slots.push_back(std::move(slots));
-        all.size = std::max(all.size, offset);
-    }
-    all.values.resize(complex.wedge_source.size() * all.size);
-    for (std::size_t p = 0; p < submesh.primitives.size(); ++p)
-        for (std::size_t a = 0; a < all.slots[p].size(); ++a) {
-            WedgeAttributes::Slot& slot = all.slots[p][a];
-            const Attribute& attribute = submesh.primitives[p].geometry->attributes[a];
-            slot.low.fill(std::numeric_limits<float>::max());
-            slot.high.fill(std::numeric_limits<float>::lowest());
-            for (std::size_t w = complex.wedge_begin[p]; w < complex.wedge_begin[p + 1]; ++w)
-                for (std::uint32_t c = 0; c < slot.components; ++c) {
-                    const float value = attributeValue(attribute, complex.wedge_source[w], c);
-                    all.values[w * all.size + slot.offset + c] = value;
-                    slot.low[c] = std::min(slot.low[c], value);
-                    slot.high[c] = std::max(slot.high[c], value);
-                }
-            for (std::size_t c = 0; c < slot.low.size(); ++c)
-                if (slot.low[c] > slot.high[c]) // no number among them
-                    slot.low[c] = slot.high[c] = 0.0f;
-        }
-    all.spacing = spacingOf(complex);
-    return all;
 }
 
 // --- joining

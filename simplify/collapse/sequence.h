@@ -66,9 +66,6 @@ Result<std::vector<CollapseSequence>> buildSequences(std::span<const SequenceReq
                                                      const FloorOptions& floors,
                                                      const JobContext& job);
 
-// Layout and values of a submesh's interpolated attributes.
-WedgeAttributes gatherAttributes(const Submesh& submesh, const Complex& complex);
-
 // Joins the logs of a submesh's components into one sequence, cheapest step first (ties:
 // component). cost_scales [components]: x logged costs; length_scales [components]: x logged
 // distances.

@@ -1,6 +1,7 @@
 #include "scene/import.h"
 #include "simplify/algorithm.h"
 #include "tests/models_folder.h"
+#include "tests/simplify/meshes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -55,4 +56,36 @@ TEST_F(ModelsSimplify, EveryModelGivesSoundLodsByEveryAlgorithm) {
         }
     }
     EXPECT_GT(simplified, 100);
+}
+
+// Closed by position, whatever the seams of its textures, normals and materials.
+TEST_F(ModelsSimplify, ClosedModelsStayClosedAcrossSeamsAtAnyRatio) {
+    int closed = 0;
+    for (const std::filesystem::path& file : modelFiles()) {
+        const Result<ScenePtr> scene = importScene(file, {});
+        if (!scene || countScene(**scene).unique_triangles > kLargest)
+            continue;
+        const Result<LodSourcePtr> source =
+            findAlgorithm("quadric-submesh")->prepare(*scene, {}, {}, {});
+        ASSERT_TRUE(source) << source.error().message;
+        const ByteModel bytes((*source)->scene(), {});
+        std::vector<bool> was_closed;
+        for (const double ratio : {1.0, 0.5, 0.2, 0.05, 0.01}) {
+            const Resolved at = (*source)->resolve({Target::Kind::Ratio, ratio}, bytes);
+            const Lod lod = (*source)->readOut(at.position, nullptr);
+            for (std::size_t s = 0; s < lod.submeshes.size(); ++s) {
+                const meshes::Shape shape = meshes::shapeOf(lod.submeshes[s].primitives);
+                if (ratio == 1.0) {
+                    const bool sound = shape.faces > 3 && shape.border_edges == 0 &&
+                                       shape.non_manifold_edges == 0 && shape.degenerate_faces == 0;
+                    was_closed.push_back(sound);
+                    closed += sound ? 1 : 0;
+                } else if (was_closed[s]) {
+                    EXPECT_EQ(shape.border_edges, 0u)
+                        << file << " mesh " << s << " at " << ratio << ", " << shape.faces;
+                }
+            }
+        }
+    }
+    EXPECT_GT(closed, 20);
 }

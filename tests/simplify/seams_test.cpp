@@ -1,9 +1,11 @@
 #include "tests/simplify/meshes.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <gtest/gtest.h>
+#include <map>
 #include <set>
 
 namespace lodestone {
@@ -172,18 +174,123 @@ TEST(Seams, TangentsKeepAUnitDirectionAndASign) {
                    });
 }
 
-TEST(Seams, JointsAreOriginalOnesAndWeightsStillSumToOne) {
-    const GeometryPtr skinned = skinnedGrid();
-    std::set<std::array<float, 2>> pairs;
-    const Attribute& joints = skinned->attributes[0];
-    for (std::size_t v = 0; v < skinned->positions.size(); ++v)
-        pairs.insert({attributeValue(joints, v, 0), attributeValue(joints, v, 1)});
-    forEveryVertex(submeshOf({skinned}), "JOINTS_0", [&](const glm::vec4& value) {
-        EXPECT_TRUE(pairs.contains({value.x, value.y})) << value.x << " " << value.y;
-    });
-    forEveryVertex(submeshOf({skinned}), "WEIGHTS_0", [](const glm::vec4& value) {
-        EXPECT_NEAR(value.x + value.y + value.z + value.w, 1.0f, 1e-5f);
-    });
+TEST(Seams, JointsAreThoseOfTheFileOnceEachAndWeightsStillSumToOne) {
+    const Submesh submesh = submeshOf({skinnedGrid()});
+    const CollapseSequence sequence = sequenceOf(submesh);
+    for (std::uint32_t step = 0; step <= sequence.step_count; ++step) {
+        const GeometryPtr now = readAt(sequence, submesh, step)[0];
+        const Attribute& joints = *findAttribute(now->attributes, "JOINTS_0");
+        const Attribute& weights = *findAttribute(now->attributes, "WEIGHTS_0");
+        for (std::size_t v = 0; v < now->positions.size(); ++v) {
+            std::set<float> used;
+            float sum = 0.0f;
+            for (std::size_t c = 0; c < 4; ++c) {
+                const float weight = attributeValue(weights, v, c);
+                sum += weight;
+                EXPECT_LE(attributeValue(joints, v, c), 6.0f);
+                if (weight > 0.0f) {
+                    EXPECT_TRUE(used.insert(attributeValue(joints, v, c)).second);
+                }
+            }
+            ASSERT_NEAR(sum, 1.0f, 1e-5f) << "step " << step;
+        }
+    }
+}
+
+TEST(Seams, WeightsOfBytesSumToOneToTheLastBit) {
+    auto geometry = std::make_shared<Geometry>(*skinnedGrid());
+    Attribute& weights = geometry->attributes[1];
+    Attribute bytes{"WEIGHTS_0", ComponentType::UInt8, 4, true, {}};
+    for (std::size_t v = 0; v < geometry->positions.size(); ++v) {
+        const auto first = static_cast<int>(std::lround(255.0f * attributeValue(weights, v, 0)));
+        for (const int weight : {first, 255 - first, 0, 0})
+            bytes.bytes.push_back(static_cast<std::byte>(weight));
+    }
+    weights = bytes;
+    const Submesh submesh = submeshOf({geometry});
+    const CollapseSequence sequence = sequenceOf(submesh);
+    for (std::uint32_t step = 0; step <= sequence.step_count; ++step) {
+        const GeometryPtr now = readAt(sequence, submesh, step)[0];
+        const Attribute& now_weights = *findAttribute(now->attributes, "WEIGHTS_0");
+        for (std::size_t v = 0; v < now->positions.size(); ++v) {
+            int sum = 0;
+            for (std::size_t c = 0; c < 4; ++c)
+                sum += std::to_integer<int>(now_weights.bytes[4 * v + c]);
+            ASSERT_EQ(sum, 255) << "step " << step;
+        }
+    }
+}
+
+TEST(Seams, BlendedInfluencesKeepTheStrongest) {
+    const WedgeAttributes::SkinSet set{0, 4};
+    std::array<float, 8> a{1, 2, 3, 4, 0.4f, 0.3f, 0.2f, 0.1f};
+    const std::array<float, 8> b{5, 2, 0, 0, 0.8f, 0.2f, 0.0f, 0.0f};
+    blendSkin(a.data(), b.data(), 0.5f, std::span(&set, 1));
+    // 5: 0.4, 2: 0.25, 1: 0.2, 3: 0.1 of 0.95; 4 is the weakest.
+    const std::array<float, 8> expected{
+        5, 2, 1, 3, 0.4f / 0.95f, 0.25f / 0.95f, 0.2f / 0.95f, 0.1f / 0.95f};
+    for (std::size_t i = 0; i < a.size(); ++i)
+        EXPECT_NEAR(a[i], expected[i], 1e-6f) << i;
+}
+
+// A flat sheet of which a morph target lifts a narrow ridge: nothing at rest shows it.
+TEST(Seams, MotionOfMorphTargetsIsKeptWhereTheRestPoseIsFlat) {
+    auto geometry = std::make_shared<Geometry>(*meshes::grid(24));
+    std::vector<float> deltas;
+    const auto lift = [](float x) { return 0.2f * std::exp(-100.0f * (x - 0.5f) * (x - 0.5f)); };
+    for (const glm::vec3& p : geometry->positions)
+        deltas.insert(deltas.end(), {0.0f, 0.0f, lift(p.x)});
+    geometry->morph_targets.push_back(
+        {meshes::withAttribute(*geometry, "POSITION", deltas)->attributes});
+    const Submesh submesh = submeshOf({geometry});
+    const auto highest = [&](double weight) {
+        CollapseOptions options;
+        options.attributes.motion = weight;
+        const CollapseSequence sequence = sequenceOf(submesh, options);
+        std::uint32_t step = 0;
+        while (sequence.facesAt(step) > 80)
+            ++step;
+        const GeometryPtr now = readAt(sequence, submesh, step)[0];
+        float top = 0.0f;
+        for (std::size_t v = 0; v < now->positions.size(); ++v)
+            top = std::max(top, attributeValue(now->morph_targets[0].attributes[0], v, 2));
+        return top;
+    };
+    EXPECT_GT(highest(1.0), 0.19f);
+    EXPECT_LT(highest(0.0), 0.19f);
+}
+
+TEST(Seams, StrictKeepsEveryJunctionOfSeams) {
+    const Submesh submesh = submeshOf({seamedSphere()});
+    CollapseOptions strict;
+    strict.seams = 0.0;
+    const CollapseSequence kept = sequenceOf(submesh, strict);
+    // Places where more than two charts meet: two, at the poles of the cut.
+    const auto junctions = [&](const CollapseSequence& sequence, std::uint32_t step) {
+        std::map<std::array<float, 3>, int> wedges;
+        for (std::uint32_t w = 0; w < sequence.wedge_death.size(); ++w)
+            if (sequence.wedge_death[w] > step) {
+                const glm::vec3 p = wedgePosition(sequence, submesh, w, step);
+                ++wedges[{p.x, p.y, p.z}];
+            }
+        return std::ranges::count_if(wedges, [](const auto& place) { return place.second > 2; });
+    };
+    const auto at_first = junctions(kept, 0);
+    EXPECT_GE(at_first, 2);
+    for (std::uint32_t step = 0; step <= kept.step_count; step += 5)
+        ASSERT_EQ(junctions(kept, step), at_first) << "step " << step;
+}
+
+TEST(Seams, TargetMissedForStrictSeamsIsSaidWithTheirShare) {
+    const ScenePtr scene = meshes::sceneOf({submeshOf({facetedSphere()})}, {{glm::dmat4(1.0)}});
+    EdgeCollapseOptions options;
+    options.collapse.seams = 0.0;
+    const LodSourcePtr source = prepareEdgeCollapse(scene, options, {}, {}).value();
+    const Resolved resolved =
+        source->resolve({Target::Kind::Ratio, 0.1}, ByteModel(source->scene(), {}));
+    EXPECT_FALSE(resolved.met);
+    EXPECT_NE(resolved.note.find("100 % of remaining vertices lie on seams"), std::string::npos)
+        << resolved.note;
 }
 
 TEST(Seams, MorphTargetsFollowTheirVertices) {

@@ -1,0 +1,65 @@
+#pragma once
+// The attributes of a submesh as the collapse engine keeps them: floats of wedges.
+#include "simplify/collapse/complex.h"
+
+#include <array>
+
+namespace lodestone {
+
+// Float attributes of wedges that are interpolated (normals, texture coordinates, colours, morph
+// targets, joints with their weights); the rest is taken from the nearest original wedge.
+struct WedgeAttributes {
+    std::uint32_t size = 0;    // floats a wedge
+    std::vector<float> values; // [wedges * size], all wedges of the complex
+
+    enum class Kind : std::uint8_t {
+        Plain, // blended value by value
+        Normal,
+        Tangent, // xyz unit, w a sign
+        Texcoord,
+        Color,
+        Skin,    // joints or weights: see SkinSet
+        Carried, // of the nearest original wedge
+    };
+
+    struct Slot {
+        Kind kind = Kind::Carried;
+        std::uint32_t offset = 0;
+        std::uint32_t components = 0; // 0: Carried
+        std::array<float, 4> low{};   // what the file's values span
+        std::array<float, 4> high{};
+    };
+
+    // JOINTS_n and WEIGHTS_n: four influences.
+    struct SkinSet {
+        std::uint32_t joints = 0; // offsets
+        std::uint32_t weights = 0;
+    };
+
+    struct PrimitiveLayout {
+        std::vector<Slot> slots;                    // [attributes]
+        std::vector<std::vector<Slot>> morph_slots; // [targets][attributes]
+        std::vector<SkinSet> skin;
+    };
+
+    std::vector<PrimitiveLayout> primitives;
+    bool carries = false; // some attribute is Carried
+    double spacing = 0.0; // root of two faces' mean area: about the length of an edge
+
+    // How morph targets and joints move a wedge, in the submesh's units: sums with random signs,
+    // so that differences have the length that all motions' differences have together, on average.
+    static constexpr std::size_t kMotionValues = 3;
+    std::vector<float> motion; // [wedges * kMotionValues]; empty: nothing moves
+};
+
+// Layout and values of a submesh's attributes.
+WedgeAttributes gatherAttributes(const Submesh& submesh, const Complex& complex);
+
+// Moves the influences at `into` by t, 0..1, towards those at `from`: joints of both, the
+// strongest kept, weights summing to 1. values: of both wedges, offsets from sets.
+void blendSkin(float* into,
+               const float* from,
+               float t,
+               std::span<const WedgeAttributes::SkinSet> sets);
+
+} // namespace lodestone
