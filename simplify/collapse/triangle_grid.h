@@ -70,7 +70,7 @@ void TriangleGrid::visitNear(const glm::vec3& p,
     constexpr float kFar = 1e18f;
     if (empty() || !(glm::dot(p, p) < kFar * kFar) || !(reach < kFar))
         return;
-    const auto visitCell = [&](std::size_t cell) {
+    const auto visit_cell = [&](std::size_t cell) {
         for (std::uint32_t e = begin_[cell]; e < begin_[cell + 1] && entries_[e] < count; ++e) {
             const Ball& ball = balls_[entries_[e]];
             const glm::vec3 apart = p - ball.center;
@@ -86,7 +86,7 @@ void TriangleGrid::visitNear(const glm::vec3& p,
         for (int z = low.z; z <= high.z; ++z)
             for (int y = low.y; y <= high.y; ++y)
                 for (int x = low.x; x <= high.x; ++x)
-                    visitCell(indexOf(x, y, z));
+                    visit_cell(indexOf(x, y, z));
         if (around >= reach)
             return;
     }
