@@ -1,5 +1,5 @@
 #pragma once
-// Inside render/ only: one piece of work beside the frames.
+// One piece of work beside the frames.
 #include <functional>
 #include <memory>
 #include <string>

@@ -1,58 +1,16 @@
 #include "render/draw_pass.h"
 
+#include "render/frame_block.h"
+#include "render/lod_state.h"
 #include "render/transparency.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <utility>
 
 namespace lodestone {
 
 namespace {
-
-// Layout of the uniform block Frame in shaders/common.glsl (std140).
-struct FrameBlock {
-    glm::mat4 clip_from_scene;
-    glm::vec4 drawn;
-    glm::vec4 right;
-    glm::vec4 up;
-    glm::vec4 back;
-    glm::vec4 key_light;
-    glm::vec4 viewport;
-    glm::vec4 wire_color;
-};
-
-FrameBlock
-frameBlock(const View::Input& input, const SceneFrame& frame, const Antialiasing& antialiasing) {
-    const glm::dmat4 view = viewMatrix(input.camera);
-    const glm::dmat4 projection = projectionMatrix(input.camera, input.size.aspect());
-    const glm::dmat4 world_from_scene =
-        glm::scale(glm::translate(glm::dmat4(1.0), frame.center), glm::dvec3(frame.radius));
-    const glm::dmat3 axes = glm::transpose(glm::dmat3(view));
-    const double azimuth = input.options.light_azimuth_rad;
-    const double elevation = input.options.light_elevation_rad;
-    const glm::dvec3 light = axes * glm::dvec3(std::cos(elevation) * std::sin(azimuth),
-                                               std::sin(elevation),
-                                               std::cos(elevation) * std::cos(azimuth));
-    FrameBlock block;
-    block.clip_from_scene = glm::mat4(projection * view * world_from_scene);
-    const glm::dvec2 middle =
-        glm::dvec2(input.size.width_px, input.size.height_px) * (antialiasing.scale * 0.5);
-    block.drawn = glm::vec4(middle, std::tan(input.camera.yfov_rad * 0.5) / middle.y, 0.0);
-    block.right = glm::vec4(axes[0], 0.0);
-    block.up = glm::vec4(axes[1], 0.0);
-    block.back = glm::vec4(axes[2], input.camera.orthographic ? 1.0 : 0.0);
-    block.key_light = glm::vec4(light, 0.0);
-    block.viewport = glm::vec4(input.size.width_px,
-                               input.size.height_px,
-                               input.options.exposure,
-                               antialiasing.samples > 1 ? 1.0f : 0.0f);
-    block.wire_color = glm::vec4(input.options.wire_srgb, 1.0f);
-    return block;
-}
 
 std::uint32_t shadeFeature(Shading shading) {
     switch (shading) {
@@ -68,6 +26,12 @@ std::uint32_t shadeFeature(Shading shading) {
         return kShadeSubmesh;
     case Shading::ByInstance:
         return kByInstance;
+    case Shading::Matcap:
+        return kShadeMatcap;
+    case Shading::ByLodState:
+        return kShadeSubmesh;
+    case Shading::ByValue:
+        return kShadeValue;
     case Shading::Lit:
         break;
     }
@@ -102,6 +66,8 @@ std::uint32_t itemFeatures(const DrawItem& item, const GpuSceneState& scene, Sha
         features |= layout & (kHasUv0 | kHasUv1);
     if (shading == Shading::UvChecker)
         features |= layout & kHasUv0;
+    if (shading == Shading::ByValue)
+        features |= layout & kHasValue;
     if ((features & (kHasUv0 | kHasUv1)) == 0)
         features &= ~kAnyMap;
     if (scene.submeshes[item.submesh].mirroring == Mirroring::Mixed &&
@@ -139,9 +105,11 @@ public:
     ItemBinder(const GpuSceneState& scene, const ViewOptions& options, int samples)
         : scene_(scene), options_(options), samples_(samples) {}
 
-    Result<void> bind(const DrawItem& item) {
-        std::uint32_t features = itemFeatures(item, scene_, options_.shading);
-        if (options_.wireframe && item.mode == PrimitiveMode::Triangles)
+    // over: what is added to the features that the shading asks for.
+    Result<void> bind(const DrawItem& item, std::uint32_t over = 0) {
+        const Shading shading = over == kHighlight ? Shading::Clay : options_.shading;
+        std::uint32_t features = itemFeatures(item, scene_, shading) | over;
+        if (options_.wireframe && over == 0 && item.mode == PrimitiveMode::Triangles)
             features |= kWireframe;
         if (!program_ || features != features_) {
             Result<const SceneProgram*> program = scene_.renderer->sceneProgram(features);
@@ -158,19 +126,23 @@ public:
         }
         bindFacing(item);
         if (program_->submesh_color >= 0)
-            glUniform4fv(program_->submesh_color,
-                         1,
-                         glm::value_ptr(scene_.submeshes[item.submesh].id_color));
+            glUniform4fv(program_->submesh_color, 1, glm::value_ptr(submeshColor(item)));
         glBindVertexArray(item.vertex_array.name());
         return {};
     }
 
 private:
+    glm::vec4 submeshColor(const DrawItem& item) const {
+        return options_.shading == Shading::ByLodState
+                   ? lodStateColor(item, *scene_.scene, options_)
+                   : scene_.submeshes[item.submesh].id_color;
+    }
+
     void bindCoverage() const {
-        const bool covers = (features_ & kAlphaMask) != 0 && samples_ > 1;
+        const bool covers = (features_ & (kAlphaMask | kHighlight)) == kAlphaMask && samples_ > 1;
         setEnabled(GL_SAMPLE_ALPHA_TO_COVERAGE, covers);
         setEnabled(GL_SAMPLE_ALPHA_TO_ONE, covers);
-        const bool blends = (features_ & kAlphaBlend) != 0;
+        const bool blends = (features_ & (kAlphaBlend | kHighlight)) != 0;
         setEnabled(GL_BLEND, blends);
         glDepthMask(blends ? GL_FALSE : GL_TRUE);
     }
@@ -223,13 +195,16 @@ std::uint64_t triangleCount(const DrawItem& item, const DrawRange& range) {
 }
 
 // What follows `begin` (see DrawCursor), about most_triangles of it and not nothing.
-DrawRange nextRange(const DrawItem& item, std::uint32_t begin, std::uint64_t most_triangles) {
-    DrawRange range{0, item.geometry->index_count, item.kept_instances};
+DrawRange nextRange(const DrawItem& item,
+                    std::uint32_t instance_count,
+                    std::uint32_t begin,
+                    std::uint64_t most_triangles) {
+    DrawRange range{0, item.geometry->index_count, instance_count};
     if (item.mode != PrimitiveMode::Triangles || range.index_count < 3)
         return range;
-    if (item.kept_instances > 1) {
+    if (instance_count > 1) {
         const std::uint64_t most = most_triangles / (range.index_count / 3) + 1;
-        const std::uint64_t left = item.kept_instances - begin;
+        const std::uint64_t left = instance_count - begin;
         range.instance_count = static_cast<std::uint32_t>(std::min(left, most));
     } else {
         const std::uint64_t left = range.index_count - begin;
@@ -241,10 +216,13 @@ DrawRange nextRange(const DrawItem& item, std::uint32_t begin, std::uint64_t mos
 }
 
 // Behind the range; back at 0 once the item is finished.
-std::uint32_t placeBehind(const DrawItem& item, std::uint32_t begin, const DrawRange& range) {
-    const bool by_instance = item.kept_instances > 1;
+std::uint32_t placeBehind(const DrawItem& item,
+                          std::uint32_t instance_count,
+                          std::uint32_t begin,
+                          const DrawRange& range) {
+    const bool by_instance = instance_count > 1;
     const std::uint32_t end = begin + (by_instance ? range.instance_count : range.index_count);
-    return end >= (by_instance ? item.kept_instances : item.geometry->index_count) ? 0 : end;
+    return end >= (by_instance ? instance_count : item.geometry->index_count) ? 0 : end;
 }
 
 void drawItem(const DrawItem& item, const DrawRange& range) {
@@ -314,16 +292,29 @@ public:
             }
             if (totals_.triangles >= most_triangles)
                 return {};
+            const SeenInstances seen =
+                cursor.culling ? cursor.culling->seen(cursor.item, input_)
+                               : SeenInstances{item.instances.get(), item.kept_instances};
+            if (seen.count == 0) {
+                ++cursor.item;
+                continue;
+            }
             const DrawRange range =
-                nextRange(item, cursor.begin, most_triangles - totals_.triangles);
-            if (Result<void> drawn = drawPart(item, cursor.begin, range); !drawn)
+                nextRange(item, seen.count, cursor.begin, most_triangles - totals_.triangles);
+            if (Result<void> drawn = drawPart(item, seen, cursor.begin, range); !drawn)
                 return drawn;
-            cursor.begin = placeBehind(item, cursor.begin, range);
+            cursor.begin = placeBehind(item, seen.count, cursor.begin, range);
             if (cursor.begin == 0)
                 ++cursor.item;
         }
         cursor.finished = true;
-        return drawSorted(sorted);
+        if (Result<void> drawn = drawSorted(sorted); !drawn)
+            return drawn;
+        if (Result<void> marked = drawHighlighted(); !marked)
+            return marked;
+        if (input_.options.grid)
+            drawGrid();
+        return {};
     }
 
     const DrawTotals& totals() const { return totals_; }
@@ -343,15 +334,22 @@ private:
         return {};
     }
 
-    Result<void> drawPart(const DrawItem& item, std::uint32_t begin, const DrawRange& range) {
-        if (begin == 0 || item.kept_instances <= 1)
+    Result<void> drawPart(const DrawItem& item,
+                          const SeenInstances& seen,
+                          std::uint32_t begin,
+                          const DrawRange& range) {
+        const std::uint32_t first = seen.count > 1 ? begin : 0;
+        if (first == 0 && seen.buffer == item.instances.get())
             return draw(item, range);
-        return drawInstances(item, begin, range);
+        return drawInstances(item, *seen.buffer, first, range);
     }
 
-    Result<void> drawInstances(const DrawItem& item, std::uint32_t first, const DrawRange& range) {
+    Result<void> drawInstances(const DrawItem& item,
+                               const InstanceBuffer& instances,
+                               std::uint32_t first,
+                               const DrawRange& range) {
         glBindVertexArray(item.vertex_array.name());
-        pointAtInstances(*item.instances, first);
+        pointAtInstances(instances, first);
         Result<void> drawn = draw(item, range);
         pointAtInstances(*item.instances, 0);
         return drawn;
@@ -360,10 +358,64 @@ private:
     Result<void> drawSorted(const std::vector<BlendedInstance>& sorted) {
         for (const BlendedInstance& blended : sorted) {
             const DrawRange one{0, blended.item->geometry->index_count, 1};
-            if (Result<void> drawn = drawInstances(*blended.item, blended.place, one); !drawn)
+            if (Result<void> drawn =
+                    drawInstances(*blended.item, *blended.item->instances, blended.place, one);
+                !drawn)
                 return drawn;
         }
         return {};
+    }
+
+    // Over the surfaces that are there already.
+    Result<void> drawHighlighted() {
+        for (const Highlight& highlight : input_.options.highlighted)
+            for (const DrawItem& item : input_.lod->state()->items)
+                if (item.submesh == highlight.submesh && item.mode == PrimitiveMode::Triangles)
+                    if (Result<void> drawn = drawHighlighted(item, highlight.instance); !drawn)
+                        return drawn;
+        return {};
+    }
+
+    Result<void> drawHighlighted(const DrawItem& item, std::uint32_t instance) {
+        DrawRange range{0, item.geometry->index_count, item.kept_instances};
+        std::uint32_t place = 0;
+        if (instance != kNone) {
+            place = placeOf(item, instance);
+            if (place == kNone)
+                return {};
+            range.instance_count = 1;
+        }
+        if (Result<void> bound = binder_.bind(item, kHighlight); !bound)
+            return bound;
+        pointAtInstances(*item.instances, place);
+        drawItem(item, range);
+        pointAtInstances(*item.instances, 0);
+        return {};
+    }
+
+    // Of an instance among those that are kept; kNone: it is not.
+    std::uint32_t placeOf(const DrawItem& item, std::uint32_t instance) const {
+        const std::uint32_t begin = scene_.submeshes[item.submesh].range.begin;
+        std::uint32_t place = instance - begin;
+        if (const auto& order = item.instances->order)
+            place =
+                static_cast<std::uint32_t>(std::ranges::find(*order, instance) - order->begin());
+        else if (instance < begin)
+            return kNone;
+        return place < item.kept_instances ? place : kNone;
+    }
+
+    void drawGrid() const {
+        glUseProgram(scene_.renderer->gridProgram().name());
+        glDisable(GL_CULL_FACE);
+        glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+        glDisable(GL_SAMPLE_ALPHA_TO_ONE);
+        glEnable(GL_BLEND);
+        glDepthMask(GL_FALSE);
+        glEnable(GL_DEPTH_CLAMP); // it reaches beyond the planes that enclose the scene
+        glBindVertexArray(scene_.renderer->emptyVertexArray());
+        glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+        glDisable(GL_DEPTH_CLAMP);
     }
 
     const View::Input& input_;
@@ -404,7 +456,7 @@ Result<DrawTotals> drawLod(const View::Input& input,
                            std::uint64_t most_triangles) {
     const GpuSceneState& scene = input.scene->state();
     setFixedState();
-    const FrameBlock block = frameBlock(input, scene.frame, antialiasing);
+    const FrameBlock block = frameBlock(input, antialiasing);
     glBindBuffer(GL_UNIFORM_BUFFER, scene.renderer->frameBuffer());
     glBufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STREAM_DRAW);
     glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, scene.renderer->frameBuffer());

@@ -1,5 +1,6 @@
 #pragma once
 // Inside render/ only: draws a LOD into the framebuffer that is bound.
+#include "render/culling.h"
 #include "render/gpu_scene_state.h"
 #include "render/view.h"
 
@@ -22,9 +23,11 @@ void drawBackground(const RendererState& renderer, const ViewOptions& options);
 
 // Where a draw that is spread over several calls goes on.
 struct DrawCursor {
-    std::size_t item = 0;    // in LodState::items
-    std::uint32_t begin = 0; // of that item's instances, or of its indices if it has one instance
+    std::size_t item = 0; // in LodState::items
+    std::uint32_t begin =
+        0; // of that item's seen instances, or of its indices if it has one instance
     bool finished = false;
+    Culling* culling = nullptr; // prepared for the picture; null: every instance is drawn
 };
 
 // Draws from the cursor on and moves it. Stops once about most_triangles are drawn, instances

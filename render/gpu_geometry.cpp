@@ -2,6 +2,7 @@
 
 #include "render/renderer_state.h"
 #include "render/smooth_normals.h"
+#include "scene/vertex_value.h"
 
 #include <algorithm>
 #include <cmath>
@@ -143,6 +144,7 @@ void packVertices(const Geometry& geometry, const LocalFrame& frame, PackedGeome
     const Attribute* uv0 = usable(geometry, "TEXCOORD_0", 2);
     const Attribute* uv1 = usable(geometry, "TEXCOORD_1", 2);
     const Attribute* color = usable(geometry, "COLOR_0", 3);
+    const Attribute* value = usable(geometry, kVertexValueSemantic, 1);
     VertexLayout& layout = packed.layout;
     std::size_t stride = sizeof(glm::vec3);
     const auto reserve = [&](const Attribute* attribute, Feature feature, std::size_t size_bytes) {
@@ -157,6 +159,7 @@ void packVertices(const Geometry& geometry, const LocalFrame& frame, PackedGeome
     layout.uv0_offset = reserve(uv0, kHasUv0, sizeof(glm::vec2));
     layout.uv1_offset = reserve(uv1, kHasUv1, sizeof(glm::vec2));
     layout.color_offset = reserve(color, kHasColor, 4 * sizeof(std::uint16_t));
+    layout.value_offset = reserve(value, kHasValue, sizeof(float));
     layout.stride_bytes = static_cast<GLsizei>(stride);
 
     std::vector<std::byte> bytes(stride * geometry.positions.size());
@@ -169,6 +172,8 @@ void packVertices(const Geometry& geometry, const LocalFrame& frame, PackedGeome
         putFloats({bytes, stride, layout.uv1_offset}, *uv1, 2);
     if (color != nullptr)
         putColors({bytes, stride, layout.color_offset}, *color);
+    if (value != nullptr)
+        putFloats({bytes, stride, layout.value_offset}, *value, 1);
     packed.vertices = std::move(bytes);
     packed.vertex_count = static_cast<std::uint32_t>(geometry.positions.size());
 }
@@ -187,6 +192,7 @@ packGeometry(const GeometryPtr& source, const LocalFrame& frame, PrimitiveMode m
     for (const glm::vec3& position : source->positions)
         box.add(glm::dvec3(position));
     packed.source_center = box.center();
+    packed.source_radius = box.empty ? 0.0 : box.diagonal() * 0.5;
     const bool smooth = lacksNormals(*source, mode);
     const Geometry smoothed = smooth ? withSmoothNormals(*source) : Geometry();
     const Geometry& geometry = smooth ? smoothed : *source;
@@ -199,6 +205,7 @@ std::shared_ptr<GpuGeometry> reserveGeometry(const PackedGeometry& packed) {
     auto gpu = std::make_shared<GpuGeometry>();
     gpu->source = packed.source;
     gpu->source_center = packed.source_center;
+    gpu->source_radius = packed.source_radius;
     gpu->layout = packed.layout;
     gpu->index_type = packed.index_type;
     gpu->index_count = packed.index_count;
@@ -304,6 +311,8 @@ GlVertexArray makeVertexArray(const GpuGeometry& geometry, const InstanceBuffer&
         attribute(3, 2, GL_FLOAT, layout.uv1_offset);
     if ((layout.features & kHasColor) != 0)
         attribute(4, 4, GL_UNSIGNED_SHORT, layout.color_offset);
+    if ((layout.features & kHasValue) != 0)
+        attribute(9, 1, GL_FLOAT, layout.value_offset);
 
     pointAtInstances(instances, 0);
     for (GLuint index = 5; index <= 8; ++index) {

@@ -22,16 +22,18 @@ LocalFrame localFrame(const Submesh& submesh);
 
 struct VertexLayout {
     GLsizei stride_bytes = 0;
-    std::uint32_t features = 0; // kHasNormal | kHasUv0 | kHasUv1 | kHasColor
+    std::uint32_t features = 0; // kHasNormal | kHasUv0 | kHasUv1 | kHasColor | kHasValue
     std::size_t normal_offset = 0;
     std::size_t uv0_offset = 0;
     std::size_t uv1_offset = 0;
     std::size_t color_offset = 0;
+    std::size_t value_offset = 0;
 };
 
 struct GpuGeometry {
     GeometryPtr source;            // keeps the identity it is cached by
     glm::dvec3 source_center{0.0}; // middle of its box
+    double source_radius = 0.0;    // of the ball about it, local units
     GlBuffer vertices;
     GlBuffer indices;
     VertexLayout layout;
@@ -48,6 +50,7 @@ bool lacksNormals(const Geometry& geometry, PrimitiveMode mode);
 struct PackedGeometry {
     GeometryPtr source;
     glm::dvec3 source_center{0.0};
+    double source_radius = 0.0;
     VertexLayout layout;
     GLenum index_type = GL_UNSIGNED_INT;
     std::uint32_t index_count = 0;
@@ -106,7 +109,7 @@ std::size_t copyToBuffer(const GlBuffer& buffer,
 // base instance.
 void pointAtInstances(const InstanceBuffer& instances, std::uint32_t first);
 
-// Attributes 0..4 from the geometry, 5..8 from the instances, indices bound.
+// Attributes 0..4 and 9 from the geometry, 5..8 from the instances, indices bound.
 GlVertexArray makeVertexArray(const GpuGeometry& geometry, const InstanceBuffer& instances);
 
 } // namespace lodestone

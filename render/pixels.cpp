@@ -188,6 +188,12 @@ void Pixels::set(std::uint32_t x, std::uint32_t y, Rgba8 color) {
     std::copy(color.begin(), color.end(), &rgba[std::size_t(4) * (std::size_t(y) * width + x)]);
 }
 
+std::uint32_t sheetColumns(std::uint32_t pictures) {
+    if (pictures <= 3)
+        return std::max(pictures, 1u);
+    return static_cast<std::uint32_t>(std::ceil(std::sqrt(static_cast<double>(pictures))));
+}
+
 Result<Pixels> composeSheet(std::span<const SheetCell> cells, const SheetOptions& options) {
     const SheetLayout layout = layOut(cells, options);
     if (layout.width > kMaxSide || layout.height > kMaxSide)

@@ -42,6 +42,10 @@ struct SheetOptions {
     float font_size_px = 15.0f;
 };
 
+// Columns of a sheet that is about as wide as its pictures are: 1; 2; 3; 4 as 2 x 2; 6 as 3 x 2;
+// 9 as 3 x 3; else as near to a square as full rows allow.
+std::uint32_t sheetColumns(std::uint32_t pictures);
+
 // Lays pictures out in rows, each centred in a cell as large as the largest picture.
 // Errors: BadInput for a font that cannot be read; Usage for a sheet beyond 32,768 px a side.
 Result<Pixels> composeSheet(std::span<const SheetCell> cells, const SheetOptions& options);

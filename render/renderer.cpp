@@ -10,7 +10,7 @@ namespace lodestone {
 
 namespace {
 
-constexpr std::array<std::string_view, 23> kFeatureNames{
+constexpr std::array<std::string_view, 27> kFeatureNames{
     "HAS_NORMAL",    "HAS_UV0",          "HAS_UV1",
     "HAS_COLOR",     "MIXED_MIRROR",     "BY_INSTANCE",
     "WIREFRAME",     "BASE_MAP",         "METALLIC_ROUGHNESS_MAP",
@@ -18,7 +18,8 @@ constexpr std::array<std::string_view, 23> kFeatureNames{
     "ALPHA_MASK",    "ALPHA_BLEND",      "UNLIT",
     "NO_SURFACE",    "FACETS",           "SHADE_LIT",
     "SHADE_CLAY",    "SHADE_BASE_COLOR", "SHADE_UV",
-    "SHADE_SUBMESH", "SHADE_NORMALS"};
+    "SHADE_SUBMESH", "SHADE_NORMALS",    "HAS_VALUE",
+    "SHADE_MATCAP",  "SHADE_VALUE",      "HIGHLIGHT"};
 
 constexpr std::array<const char*, kMaterialMaps> kMapNames{
     "base_color_map", "metallic_roughness_map", "normal_map", "occlusion_map", "emissive_map"};
@@ -61,6 +62,11 @@ Result<void> RendererState::open() {
     background_ = std::move(*background);
     background_lower_ = glGetUniformLocation(background_.name(), "lower");
     background_upper_ = glGetUniformLocation(background_.name(), "upper");
+    Result<GlProgram> grid = buildProgram({"grid.vert", "", "grid.frag"}, {});
+    if (!grid)
+        return tl::unexpected(grid.error());
+    grid_ = std::move(*grid);
+    bindBlock(grid_.name(), "Frame", kFrameBinding);
     empty_ = GlVertexArray::create();
     frame_ = GlBuffer::create();
     white_ = GlTexture::create();

@@ -36,6 +36,10 @@ enum Feature : std::uint32_t {
     kShadeUv = 1u << 20,
     kShadeSubmesh = 1u << 21,
     kShadeNormals = 1u << 22,
+    kHasValue = 1u << 23,
+    kShadeMatcap = 1u << 24,
+    kShadeValue = 1u << 25,
+    kHighlight = 1u << 26, // one translucent colour over what is drawn
 };
 
 constexpr std::uint32_t kAnyMap =
@@ -81,6 +85,8 @@ public:
 
     GLint backgroundUpper() const { return background_upper_; }
 
+    const GlProgram& gridProgram() const { return grid_; }
+
     GLuint emptyVertexArray() const { return empty_.name(); }
 
     GLuint whiteTexture() const { return white_.name(); }
@@ -98,6 +104,7 @@ private:
     GlProgram background_;
     GLint background_lower_ = -1;
     GLint background_upper_ = -1;
+    GlProgram grid_;
     GlVertexArray empty_;
     GlTexture white_;
     GlBuffer frame_;

@@ -15,7 +15,7 @@ struct ShaderText {
     std::string_view text;
 };
 
-constexpr std::size_t kShaderFiles = 6;
+constexpr std::size_t kShaderFiles = 8;
 extern const std::array<ShaderText, kShaderFiles> kShaderTexts; // made by shaders/embed.cmake
 
 struct ProgramFiles {

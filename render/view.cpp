@@ -99,6 +99,7 @@ private:
     GlFramebuffer drawn_;    // what is drawn into, then scaled or resolved into color_
     GlRenderbuffer drawn_color_;
     GlRenderbuffer drawn_depth_;
+    Culling culling_;
     std::optional<PictureKey> key_;
     DrawReport last_;
 
@@ -195,8 +196,11 @@ Result<DrawTotals> ViewState::render(const View::Input& input) {
     beginPicture(input);
     Result<DrawTotals> totals;
     DrawCursor cursor;
-    if (hasPicture(input))
+    cursor.culling = &culling_;
+    if (hasPicture(input)) {
+        culling_.prepare(input);
         totals = drawLod(input, antialiasing_, cursor, kEveryTriangle);
+    }
     endPicture(input);
     return totals;
 }
@@ -294,6 +298,8 @@ ViewState::drawBudgeted(const View::Input& input, PictureKey key, double budget_
         if (first)
             endPicture(input);
         sliced_ = Sliced{key, {}, {}, 0.0};
+        sliced_->cursor.culling = &culling_;
+        culling_.prepare(input);
     }
     const Result<DrawTotals> totals = drawSlices(input, sliced_->cursor, budget_ms);
     if (!totals) {

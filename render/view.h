@@ -4,10 +4,12 @@
 #include "render/gpu_scene.h"
 #include "render/pixels.h"
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
 #include <memory>
+#include <vector>
 
 namespace lodestone {
 
@@ -19,10 +21,21 @@ enum class Shading : std::uint8_t {
     UvChecker,  // checker board on TEXCOORD_0
     BySubmesh,  // one colour for each submesh
     ByInstance, // one colour for each instance
+    Matcap,     // a studio that turns with the camera, for shape
+    ByLodState, // value_colors by the share of its triangles that a submesh has lost
+    ByValue,    // value_colors by kVertexValueSemantic; grey where there is none
 };
 
 enum class Background : std::uint8_t { Solid, Gradient, Transparent };
 enum class BackFaces : std::uint8_t { PerMaterial, Shown };
+
+// Marked in the picture: a submesh, or one of its instances.
+struct Highlight {
+    std::uint32_t submesh = 0;
+    std::uint32_t instance = kNone; // in Scene::instances; kNone: all
+
+    bool operator==(const Highlight&) const = default;
+};
 
 struct ViewOptions {
     Shading shading = Shading::Lit;
@@ -35,6 +48,12 @@ struct ViewOptions {
     float light_azimuth_rad = -0.7f;
     float light_elevation_rad = 0.85f;
     float exposure = 1.0f;
+    float shininess = 1.0f; // > 0; divides every roughness
+    bool grid = false;      // floor under the scene's bounds
+    std::array<glm::vec3, 9> value_colors{}; // sRGB, evenly spaced from 0 to 1
+    float value_full = 1.0f;                 // > 0; the value that has the last colour
+    std::vector<Highlight> highlighted;      // what the scene does not have is ignored
+    glm::vec3 highlight_srgb{0.30f, 0.76f, 0.63f};
     // 1: hard edges. Else MSAA, clamped to what the GPU has; software renderers, which are slow at
     // that, draw LODs of many triangles 2 x 2 as large instead. 1 while dragging is cheapest.
     int samples = 4;

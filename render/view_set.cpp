@@ -12,6 +12,7 @@ ViewOptions optionsOf(const ViewSet::Wanted& wanted, const ViewOptions& options)
     ViewOptions result = options;
     if (wanted.draft)
         result.samples = 1;
+    result.highlighted = wanted.highlighted;
     return result;
 }
 
@@ -220,10 +221,31 @@ Result<std::vector<ViewSet::Picture>> ViewSet::draw(std::span<const Wanted> want
             item != items_.end() && item->second.drawn) {
             picture.texture = item->second.view.texture();
             picture.draft = item->second.shows_draft;
+            picture.version = item->second.drawn_at;
             picture.cost_ms = item->second.full.cost_ms;
             picture.draft_cost_ms = item->second.draft.cost_ms;
         }
     return pictures;
+}
+
+Result<MeasureReport> ViewSet::measure(std::uint32_t key, const MeasureOptions& options) {
+    const auto found = items_.find(key);
+    if (found == items_.end() || !found->second.complete)
+        return fail(ErrorKind::Usage, "this lane has no picture yet; wait for it");
+    Item& item = found->second;
+    return item.view.measure({&scenes_.at(item.scene),
+                              &item.shown().handle,
+                              item.camera,
+                              item.options,
+                              item.size},
+                             options);
+}
+
+Result<Pixels> ViewSet::readPixels(std::uint32_t key) const {
+    const auto found = items_.find(key);
+    if (found == items_.end() || !found->second.complete)
+        return fail(ErrorKind::Usage, "this lane has no picture yet; wait for it");
+    return found->second.view.readPixels();
 }
 
 std::optional<Picked> ViewSet::pick(std::uint32_t key, const glm::dvec2& point) const {

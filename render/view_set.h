@@ -23,6 +23,7 @@ public:
         // the camera moves. Both stay on the GPU.
         std::shared_ptr<const Lod> draft;
         ViewSize size;
+        std::vector<Highlight> highlighted; // in its scene
     };
 
     struct Picture {
@@ -32,6 +33,7 @@ public:
         bool on_its_way = false;    // stale, and drawing it waits for another thread
         bool draft = false;         // it shows a draft
         bool drew = false;          // by this call
+        std::uint64_t version = 0;  // another for every complete draw
         double cost_ms = 0.0;       // of the last measured draw of its LOD; 0: unknown
         double draft_cost_ms = 0.0; // the same of its draft
     };
@@ -59,6 +61,12 @@ public:
     };
 
     const CallWork& lastWork() const { return last_work_; }
+
+    // Draws a lane again and again as it was last drawn (see View::measure). Blocks as long as the
+    // options say. Errors: Usage if it has no complete picture; those of View.
+    Result<MeasureReport> measure(std::uint32_t key, const MeasureOptions& options);
+    // Of a lane's last complete picture. Errors: as measure().
+    Result<Pixels> readPixels(std::uint32_t key) const;
 
     // What was last drawn under a point of a lane's picture (see pick.h). nullopt: nothing.
     std::optional<Picked> pick(std::uint32_t key, const glm::dvec2& point) const;

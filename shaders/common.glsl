@@ -8,6 +8,10 @@ layout(std140) uniform Frame {
     vec4 key_light;  // xyz: towards the light
     vec4 viewport;   // xy: pixels; z: exposure; w: 1 when alpha becomes coverage
     vec4 wire_color; // sRGB
+    vec4 highlight_color; // sRGB, alpha
+    vec4 display;         // x: factor of the roughness; y: 1 / full value; z: 1 light grid lines
+    vec4 floor_plane;     // x: height; y: lines a scene unit; zw: the first line
+    vec4 value_colors[9]; // sRGB
 } frame;
 
 layout(std140) uniform Material {
@@ -55,5 +59,11 @@ layout(std140) uniform Material {
 #else
 #define SURFACE_ID
 #endif
+#ifdef HAS_VALUE
+#define SURFACE_VALUE float value;
+#else
+#define SURFACE_VALUE
+#endif
 #define SURFACE \
-    SURFACE_POSITION SURFACE_NORMAL SURFACE_UV0 SURFACE_UV1 SURFACE_COLOR SURFACE_MIRROR SURFACE_ID
+    SURFACE_POSITION SURFACE_NORMAL SURFACE_UV0 SURFACE_UV1 SURFACE_COLOR SURFACE_MIRROR \
+    SURFACE_ID SURFACE_VALUE

@@ -138,7 +138,7 @@ vec3 litColor(vec3 base, vec3 n) {
     metallic *= texel.b;
     roughness *= texel.g;
 #endif
-    roughness = clamp(roughness, 0.08, 1.0);
+    roughness = clamp(roughness * frame.display.x, 0.08, 1.0);
     float occlusion = 1.0;
 #ifdef OCCLUSION_MAP
     occlusion =
@@ -215,6 +215,34 @@ vec3 checkerColor(vec3 n) {
 #endif
 }
 
+#ifdef SHADE_MATCAP
+// A studio around the camera: a soft key from the upper left, a cool rim, a warm floor.
+vec3 matcapColor(vec3 n) {
+    vec3 eye = vec3(dot(n, frame.right.xyz), dot(n, frame.up.xyz), dot(n, viewDirection()));
+    float key = max(dot(eye, normalize(vec3(-0.45, 0.65, 0.62))), 0.0);
+    float rim = pow(clamp(1.0 - eye.z, 0.0, 1.0), 3.0);
+    vec3 color = mix(vec3(0.085, 0.062, 0.055), vec3(0.16, 0.17, 0.19), eye.y * 0.5 + 0.5);
+    color += vec3(0.50, 0.47, 0.43) * key * key;
+    color += vec3(0.55) * pow(key, 40.0 / frame.display.x);
+    return color + vec3(0.16, 0.24, 0.34) * rim * smoothstep(-0.4, 0.7, eye.y + 0.5 * eye.x);
+}
+#endif
+
+#ifdef SHADE_VALUE
+// Lit just enough that the shape can be seen and colours can be read off the legend.
+vec3 valueColor(vec3 n) {
+#ifdef HAS_VALUE
+    float place = clamp(surface.value * frame.display.y, 0.0, 1.0) * 8.0;
+    int lower = int(min(place, 7.0));
+    vec3 color = mix(frame.value_colors[lower].rgb, frame.value_colors[lower + 1].rgb,
+                     place - float(lower));
+#else
+    vec3 color = vec3(0.32);
+#endif
+    return color * (0.80 + 0.20 * max(dot(n, viewDirection()), 0.0));
+}
+#endif
+
 void main() {
 #ifdef MIXED_MIRROR
     if (cull_back > 0.5 && !frontFacing())
@@ -237,6 +265,11 @@ void main() {
     alpha = clamp(base.a, 0.0, 1.0);
 #endif
 
+#ifdef HIGHLIGHT
+    picture = frame.highlight_color;
+    return;
+#endif
+
     vec3 color;
 #if defined(SHADE_LIT) && (defined(UNLIT) || defined(NO_SURFACE))
     color = base.rgb;
@@ -244,6 +277,8 @@ void main() {
     color = vec3(0.6);
 #elif defined(SHADE_LIT)
     color = litColor(base.rgb, shadingNormal());
+#elif defined(SHADE_MATCAP)
+    color = matcapColor(shadingNormal());
 #elif defined(SHADE_CLAY)
     color = clayColor(vec3(0.58, 0.56, 0.54), shadingNormal());
 #elif defined(SHADE_BASE_COLOR)
@@ -258,7 +293,9 @@ void main() {
     color = vec3(0.0);
 #endif
 
-#if defined(SHADE_NORMALS) && !defined(NO_SURFACE)
+#if defined(SHADE_VALUE) && !defined(NO_SURFACE)
+    vec3 srgb = valueColor(shadingNormal());
+#elif defined(SHADE_NORMALS) && !defined(NO_SURFACE)
     vec3 srgb = shadingNormal() * 0.5 + 0.5;
 #elif defined(UNLIT) && defined(SHADE_LIT)
     vec3 srgb = toSrgb(clamp(color, 0.0, 1.0));

@@ -55,6 +55,9 @@ void main() {
 #ifdef BY_INSTANCE
         surface.id_color = corner[i].id_color;
 #endif
+#ifdef HAS_VALUE
+        surface.value = corner[i].value;
+#endif
         edges.distance_px = vec3(0.0);
         edges.distance_px[i] = altitude_px[i];
         edges.strength = strength;

@@ -18,6 +18,10 @@ layout(location = 7) in vec4 row_z;
 layout(location = 8) in uint instance_id;
 #endif
 
+#ifdef HAS_VALUE
+layout(location = 9) in float value;
+#endif
+
 out Surface {
     SURFACE
 } surface;
@@ -68,6 +72,9 @@ void main() {
 #endif
 #ifdef BY_INSTANCE
     surface.id_color = idColor(instance_id);
+#endif
+#ifdef HAS_VALUE
+    surface.value = value;
 #endif
     gl_Position = frame.clip_from_scene * vec4(scene, 1.0);
 }

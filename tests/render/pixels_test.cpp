@@ -22,6 +22,14 @@ TEST(Pixels, SheetKeepsPicturesApartAndCentred) {
     EXPECT_EQ(sheet->at(15, 3), options.background);
 }
 
+TEST(Pixels, SheetsOfSeveralPicturesAreRowsOfAFew) {
+    const std::pair<std::uint32_t, std::uint32_t> wanted[] = {
+        {1, 1}, {2, 2}, {3, 3}, {4, 2}, {5, 3}, {6, 3}, {9, 3}, {10, 4}};
+    for (const auto& [pictures, columns] : wanted)
+        EXPECT_EQ(sheetColumns(pictures), columns) << pictures;
+    EXPECT_EQ(sheetColumns(0), 1u);
+}
+
 TEST(Pixels, MissingFontIsAnErrorThatNamesIt) {
     const SheetCell cells[] = {{Pixels(10, 10, {}), "label"}};
     SheetOptions options;

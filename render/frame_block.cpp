@@ -1,0 +1,64 @@
+#include "render/frame_block.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace lodestone {
+
+namespace {
+
+// The level below the scene and its grid: a line every power of ten of a world unit, some twenty
+// across the scene. x: height in scene units; y: lines a scene unit; zw: the first line.
+glm::vec4 floorOf(const GpuSceneState& scene) {
+    if (scene.bounds.empty)
+        return glm::vec4(0.0f);
+    const double spacing = std::pow(10.0, std::floor(std::log10(scene.frame.radius))) * 0.5;
+    const double height = (scene.bounds.min.y - scene.frame.center.y) / scene.frame.radius;
+    const glm::dvec2 phase(std::fmod(scene.frame.center.x / spacing, 10.0),
+                           std::fmod(scene.frame.center.z / spacing, 10.0));
+    return {height, scene.frame.radius / spacing, phase.x, phase.y};
+}
+
+} // namespace
+
+FrameBlock frameBlock(const View::Input& input, const Antialiasing& antialiasing) {
+    const SceneFrame& frame = input.scene->state().frame;
+    const glm::dmat4 view = viewMatrix(input.camera);
+    const glm::dmat4 projection = projectionMatrix(input.camera, input.size.aspect());
+    const glm::dmat4 world_from_scene =
+        glm::scale(glm::translate(glm::dmat4(1.0), frame.center), glm::dvec3(frame.radius));
+    const glm::dmat3 axes = glm::transpose(glm::dmat3(view));
+    const double azimuth = input.options.light_azimuth_rad;
+    const double elevation = input.options.light_elevation_rad;
+    const glm::dvec3 light = axes * glm::dvec3(std::cos(elevation) * std::sin(azimuth),
+                                               std::sin(elevation),
+                                               std::cos(elevation) * std::cos(azimuth));
+    FrameBlock block;
+    block.clip_from_scene = glm::mat4(projection * view * world_from_scene);
+    const glm::dvec2 middle =
+        glm::dvec2(input.size.width_px, input.size.height_px) * (antialiasing.scale * 0.5);
+    block.drawn = glm::vec4(middle, std::tan(input.camera.yfov_rad * 0.5) / middle.y, 0.0);
+    block.right = glm::vec4(axes[0], 0.0);
+    block.up = glm::vec4(axes[1], 0.0);
+    block.back = glm::vec4(axes[2], input.camera.orthographic ? 1.0 : 0.0);
+    block.key_light = glm::vec4(light, 0.0);
+    block.viewport = glm::vec4(input.size.width_px,
+                               input.size.height_px,
+                               input.options.exposure,
+                               antialiasing.samples > 1 ? 1.0f : 0.0f);
+    block.wire_color = glm::vec4(input.options.wire_srgb, 1.0f);
+    block.highlight_color = glm::vec4(input.options.highlight_srgb, 0.55f);
+    const glm::vec3 luma(0.2126f, 0.7152f, 0.0722f);
+    const float brightness = glm::dot(input.options.background_srgb, luma);
+    block.display = glm::vec4(1.0f / std::max(input.options.shininess, 1e-3f),
+                              1.0f / std::max(input.options.value_full, 1e-30f),
+                              brightness < 0.4f ? 1.0f : 0.0f,
+                              0.0f);
+    block.floor = floorOf(input.scene->state());
+    for (std::size_t i = 0; i < block.value_colors.size(); ++i)
+        block.value_colors[i] = glm::vec4(input.options.value_colors[i], 1.0f);
+    return block;
+}
+
+} // namespace lodestone
