@@ -34,7 +34,7 @@ struct ParsedRender {
 
 std::string shadingList() {
     std::string names;
-    for (int index = 0; index <= static_cast<int>(ShadingMode::Instance); ++index)
+    for (std::size_t index = 0; index < kShadingModes; ++index)
         names +=
             (index == 0 ? "" : ", ") + std::string(shadingName(static_cast<ShadingMode>(index)));
     return names;

@@ -212,6 +212,7 @@ void run(Document& document, const SetLaneTarget& command) {
         return;
     edit(document, "Set target", command.drag, [&] {
         lane->settings.target = *target;
+        lane->settings.error_px.reset();
         lane->settings.position.reset();
         lane->settings.follows_master = false;
     });
@@ -219,6 +220,7 @@ void run(Document& document, const SetLaneTarget& command) {
 
 void follow(Document& document, Lane& lane) {
     lane.settings.target = document.master;
+    lane.settings.error_px = document.master_px;
     lane.settings.position.reset();
     lane.settings.follows_master = true;
 }
@@ -233,6 +235,38 @@ void run(Document& document, const SetMasterTarget& command) {
     }
     edit(document, "Set all targets", command.drag, [&] {
         document.master = *target;
+        document.master_px.reset();
+        for (Lane& lane : document.lanes)
+            if (lane.settings.follows_master)
+                follow(document, lane);
+    });
+}
+
+bool isPixelCount(Document& document, double pixels) {
+    const bool is_count = std::isfinite(pixels) && pixels > 0.0;
+    if (!is_count)
+        warn(document, "a target in pixels must be above 0; nothing changed");
+    return is_count;
+}
+
+void run(Document& document, const SetLanePixels& command) {
+    Lane* lane = laneOrWarn(document, command.lane);
+    if (!lane || !isPixelCount(document, command.pixels))
+        return;
+    edit(document, "Set target", command.drag, [&] {
+        lane->settings.error_px = command.pixels;
+        lane->settings.position.reset();
+        lane->settings.follows_master = false;
+        followView(document);
+    });
+}
+
+void run(Document& document, const SetMasterPixels& command) {
+    if (!isPixelCount(document, command.pixels))
+        return;
+    edit(document, "Set all targets", command.drag, [&] {
+        document.master_px = command.pixels;
+        followView(document);
         for (Lane& lane : document.lanes)
             if (lane.settings.follows_master)
                 follow(document, lane);
@@ -401,6 +435,8 @@ void run(Document&, const OpenSample&) {}
 void run(Document&, const Export&) {}
 
 void run(Document&, const MeasureLane&) {}
+
+void run(Document&, const MeasureRates&) {}
 
 void run(Document&, const CancelJob&) {}
 

@@ -26,6 +26,8 @@ struct MeasureLane {
     LaneId lane = kNoLane; // kNoLane: every lane
 };
 
+struct MeasureRates {}; // every lane by the papers' protocol: the window draws them
+
 struct CancelJob {
     JobId job = 0; // 0: every job
 };
@@ -76,6 +78,17 @@ struct SetLaneTarget { // the lane stops following the master
 
 struct SetMasterTarget { // every following lane gets it
     Target target;       // Ratio, Triangles or Bytes
+    DragKey drag = 0;
+};
+
+struct SetLanePixels { // an error that follows the camera; the lane stops following the master
+    LaneId lane = kNoLane;
+    double pixels = 1.0; // > 0
+    DragKey drag = 0;
+};
+
+struct SetMasterPixels {
+    double pixels = 1.0; // > 0
     DragKey drag = 0;
 };
 
@@ -145,6 +158,7 @@ using Command = std::variant<OpenScene,
                              OpenSample,
                              Export,
                              MeasureLane,
+                             MeasureRates,
                              CancelJob,
                              RetryLane,
                              AddLane,
@@ -156,6 +170,8 @@ using Command = std::variant<OpenScene,
                              SetLaneParameter,
                              SetLaneTarget,
                              SetMasterTarget,
+                             SetLanePixels,
+                             SetMasterPixels,
                              FollowMaster,
                              SetOrdering,
                              SetImportance,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace lodestone {
 
@@ -13,8 +14,8 @@ constexpr std::array<std::string_view, 3> kFirstLanes = {"", "ias", "quadric"};
 } // namespace
 
 std::string_view jobKindName(JobKind kind) {
-    constexpr std::array<std::string_view, 5> kNames = {
-        "load", "prepare", "export", "measure", "predict"};
+    constexpr std::array<std::string_view, 6> kNames = {
+        "load", "prepare", "export", "measure", "predict", "error map"};
     return kNames.at(static_cast<std::size_t>(kind));
 }
 
@@ -76,6 +77,7 @@ Lane makeLane(Document& document, const Algorithm* algorithm) {
     lane.id = document.next_lane_id++;
     lane.settings.algorithm = algorithm;
     lane.settings.target = document.master;
+    lane.settings.error_px = document.master_px;
     lane.settings.colour = freeLaneColour(document.lanes, algorithm, kNoLane);
     return lane;
 }
@@ -88,6 +90,7 @@ void resetDocument(Document& document, LoadedScene loaded) {
     document.load_state = LoadState::Loaded;
     document.lanes.clear();
     document.master = Target{Target::Kind::Ratio, 0.2};
+    document.master_px.reset();
     document.importance.clear();
     document.locked.clear();
     document.selection.clear();
@@ -139,12 +142,30 @@ Bounds selectionBounds(const Document& document) {
     return bounds;
 }
 
+double errorOfPixels(const Document& document, double pixels) {
+    const double shown = 2.0 * document.camera.distance * std::tan(kVerticalFovRad * 0.5);
+    const double pixel_size = shown / std::max(document.view_side_px, 1.0);
+    const double diagonal = document.bounds.diagonal();
+    return diagonal > 0.0 ? 100.0 * pixels * pixel_size / diagonal : 0.0;
+}
+
+void followView(Document& document) {
+    const auto follow = [&](Target& target, const std::optional<double>& pixels) {
+        if (pixels)
+            target = {Target::Kind::Error, errorOfPixels(document, *pixels)};
+    };
+    follow(document.master, document.master_px);
+    for (Lane& lane : document.lanes)
+        follow(lane.settings.target, lane.settings.error_px);
+}
+
 Edits editsOf(const Document& document) {
     Edits edits;
     edits.lanes.reserve(document.lanes.size());
     for (const Lane& lane : document.lanes)
         edits.lanes.push_back({lane.id, lane.settings});
     edits.master = document.master;
+    edits.master_px = document.master_px;
     edits.importance = document.importance;
     edits.locked = document.locked;
     edits.export_options = document.export_options;
@@ -167,6 +188,7 @@ void restoreEdits(Document& document, const Edits& edits) {
     }
     document.lanes = std::move(lanes);
     document.master = edits.master;
+    document.master_px = edits.master_px;
     document.importance = edits.importance;
     document.locked = edits.locked;
     document.export_options = edits.export_options;

@@ -22,7 +22,7 @@ enum class LoadState : std::uint8_t { Empty, Loading, Loaded };
 
 using JobId = std::uint64_t;
 
-enum class JobKind : std::uint8_t { Load, Prepare, Export, Measure, Predict };
+enum class JobKind : std::uint8_t { Load, Prepare, Export, Measure, Predict, ErrorMap };
 
 std::string_view jobKindName(JobKind kind);
 
@@ -48,15 +48,17 @@ struct Document {
     std::vector<Lane> lanes; // in display order
     LaneId active_lane = kNoLane;
     LaneId next_lane_id = 1;
-    Target master{Target::Kind::Ratio,
-                  0.2};             // Ratio or Triangles: equal triangles; Bytes: equal bytes
-    std::vector<double> importance; // [submeshes] 0.1..10; empty: all 1
-    std::vector<bool> locked;       // [submeshes]; empty: none
+    // Ratio or Triangles: equal triangles; Bytes: equal bytes; Error: only with master_px.
+    Target master{Target::Kind::Ratio, 0.2};
+    std::optional<double> master_px; // as LaneSettings::error_px
+    std::vector<double> importance;  // [submeshes] 0.1..10; empty: all 1
+    std::vector<bool> locked;        // [submeshes]; empty: none
     ExportOptions export_options;
 
     CameraState camera;
     DisplayOptions view;
     std::vector<SelectedItem> selection; // sorted, unique
+    double view_side_px = 512.0;         // shorter side of a view; filled in by the window
 
     std::vector<JobStatus> jobs;               // refreshed every frame
     std::vector<Message> messages;             // oldest first
@@ -104,6 +106,11 @@ Lane makeLane(Document& document, const Algorithm* algorithm);
 
 // World bounds of what is selected (corner boxes of its instances); empty if nothing is.
 Bounds selectionBounds(const Document& document);
+
+// The error, in % of the diagonal, that is this many pixels large at the camera's target.
+double errorOfPixels(const Document& document, double pixels);
+// Moves the targets that are given in pixels after the camera.
+void followView(Document& document);
 
 // What undo brings back, and bringing it back: a lane that existed before and after keeps its
 // status.

@@ -12,8 +12,9 @@ constexpr std::size_t kMaximumSteps = 200;
 
 bool operator==(const Edits& a, const Edits& b) {
     return a.lanes == b.lanes && a.master.kind == b.master.kind &&
-           a.master.value == b.master.value && a.importance == b.importance &&
-           a.locked == b.locked && a.export_options == b.export_options;
+           a.master.value == b.master.value && a.master_px == b.master_px &&
+           a.importance == b.importance && a.locked == b.locked &&
+           a.export_options == b.export_options;
 }
 
 void History::record(Edits before, std::string name, DragKey drag) {

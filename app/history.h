@@ -17,6 +17,7 @@ struct EditedLane {
 struct Edits {
     std::vector<EditedLane> lanes;
     Target master;
+    std::optional<double> master_px;
     std::vector<double> importance;
     std::vector<bool> locked;
     ExportOptions export_options;
@@ -34,6 +35,9 @@ public:
 
     // Ends a drag: the next edit is a step of its own.
     void endDrag() { drag_ = 0; }
+
+    // Edits of one drag are still coming in.
+    bool dragging() const { return drag_ != 0; }
 
     bool canUndo() const { return !undo_.empty(); }
 

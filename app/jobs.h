@@ -29,8 +29,8 @@ struct PredictedSizes {
     std::shared_ptr<const ByteModel> model;
 };
 
-using JobResult =
-    std::variant<LoadedScene, PreparedSource, ExportReport, Distance, PredictedSizes, ReadOut>;
+using JobResult = std::
+    variant<LoadedScene, PreparedSource, ExportReport, Distance, PredictedSizes, ReadOut, ErrorMap>;
 
 struct JobSpec {
     JobKind kind = JobKind::Load;

@@ -9,7 +9,8 @@ namespace lodestone {
 bool operator==(const LaneSettings& a, const LaneSettings& b) {
     return a.algorithm == b.algorithm && a.parameters == b.parameters && a.ordering == b.ordering &&
            a.target.kind == b.target.kind && a.target.value == b.target.value &&
-           a.position == b.position && a.follows_master == b.follows_master && a.colour == b.colour;
+           a.position == b.position && a.error_px == b.error_px &&
+           a.follows_master == b.follows_master && a.colour == b.colour;
 }
 
 std::string_view laneStateName(LaneState state) {

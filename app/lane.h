@@ -1,5 +1,6 @@
 #pragma once
 // A lane: algorithm + parameters + target, and what has become of it.
+#include "app/error_map.h"
 #include "simplify/algorithm.h"
 #include "simplify/measure/distance.h"
 
@@ -27,6 +28,8 @@ struct LaneSettings {
     Target target{Target::Kind::Ratio, 0.2};
     // Stepping edge by edge leaves the target and holds a position until the next target.
     std::optional<std::uint64_t> position;
+    // Set: the target is an error and follows the camera, so that it is this many pixels in view.
+    std::optional<double> error_px;
     bool follows_master = true;
     Rgb colour;
 };
@@ -48,6 +51,12 @@ struct LaneNumbers {
     std::string note;                  // why the target was missed; empty if met
 };
 
+// By the papers' protocol: drawn off screen again and again.
+struct MeasuredRate {
+    double mean_ms = 0.0; // of a frame
+    std::uint64_t frames = 0;
+};
+
 struct LaneStatus {
     LaneState state = LaneState::Idle;
     std::string failure;            // LaneState::Failed: one line
@@ -61,7 +70,11 @@ struct LaneStatus {
     double readout_ms = 0.0;
     std::optional<Distance> distance; // measured, of the `lod` shown
     bool measuring = false;
-    double frame_ms = 0.0; // this lane's own draw; filled in by the window, 0: unknown
+    std::optional<MeasuredRate> rate; // measured, of the `lod` shown
+    bool rate_wanted = false;         // to be measured by the window
+    ErrorMap error_map;               // of an earlier `lod` while a newer one is made
+    std::optional<double> flip; // image difference in the present view; filled in by the window
+    double frame_ms = 0.0;      // this lane's own draw; filled in by the window, 0: unknown
 };
 
 struct Lane {

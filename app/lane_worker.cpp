@@ -76,6 +76,7 @@ void setShown(const Document& document, Lane& lane, std::shared_ptr<const Lod> l
     status.lod = std::move(lod);
     ++status.lod_revision;
     status.distance.reset();
+    status.rate.reset();
     status.numbers.triangles = status.lod->triangles;
     status.numbers.unique_triangles = status.lod->unique_triangles;
     status.numbers.instances = status.lod->instances;
@@ -118,6 +119,7 @@ void LaneWorker::forgetGoneLanes(const Document& document) {
             return false;
         jobs_.cancel(item.first, JobKind::Prepare);
         jobs_.cancel(item.first, JobKind::Measure);
+        jobs_.cancel(item.first, JobKind::ErrorMap);
         return true;
     });
 }
@@ -125,11 +127,18 @@ void LaneWorker::forgetGoneLanes(const Document& document) {
 bool LaneWorker::refreshLane(Document& document, Lane& lane) {
     Work& work = work_[lane.id];
     BuildKey key = buildKey(document.scene, lane.settings);
+    // While a parameter is dragged, what is under way is finished and shown: starting anew with
+    // every move of the mouse would never come to an end.
+    if (!(key == work.key) && document.history.dragging() && lane.status.lod && !work.shows_key &&
+        (work.job != 0 || sources_.find(work.key)))
+        key = work.key;
     if (work.job != 0 && !(key == work.key)) {
         jobs_.cancel(lane.id, JobKind::Prepare);
         work.job = 0;
         work.reading.reset();
     }
+    if (!(key == work.key))
+        work.shows_key = false;
     work.key = std::move(key);
     if (!lane.settings.algorithm)
         return showOriginal(document, lane, work);
@@ -188,6 +197,8 @@ bool LaneWorker::showOriginal(const Document& document, Lane& lane, Work& work) 
         jobs_.cancel(lane.id, JobKind::Measure);
         status.measuring = false;
         status.source.reset();
+        status.error_map = {};
+        jobs_.cancel(lane.id, JobKind::ErrorMap);
         status.scene = document.scene;
         setShown(document, lane, full_lod_);
         status.numbers.error_estimate = 0.0;
@@ -274,13 +285,13 @@ void LaneWorker::commit(Document& document, FinishedJob& finished) {
         return;
     Work& work = found->second;
     work.job = 0;
-    if (lane->revision != finished.revision) {
+    if (lane->revision != finished.revision && !document.history.dragging()) {
         work.reading.reset();
         return;
     }
     if (!finished.result) {
         work.reading.reset();
-        work.failure = Failure{lane->revision, finished.result.error().message};
+        work.failure = Failure{finished.revision, finished.result.error().message};
         report(document,
                Severity::Error,
                fmt::format("{}: {}", finished.label, work.failure->message));
@@ -404,6 +415,10 @@ void LaneWorker::commitReadOut(const Document& document, Lane& lane, Work& work,
         status.measuring = false;
         setShown(document, lane, std::move(read_out.lod));
     }
+    if (status.scene != source->scene()) {
+        status.error_map = {}; // of other submeshes
+        jobs_.cancel(lane.id, JobKind::ErrorMap);
+    }
     status.source = source;
     status.scene = source->scene();
     status.build_seconds = source->seconds_sequence + source->seconds_schedule;
@@ -412,6 +427,7 @@ void LaneWorker::commitReadOut(const Document& document, Lane& lane, Work& work,
     status.numbers.note = std::move(read_out.resolved.note);
     status.readout_ms = read_out.seconds * 1000.0;
     work.shown = std::move(*work.reading);
+    work.shows_key = true;
     work.reading.reset();
 }
 

@@ -61,6 +61,7 @@ private:
         JobId job = 0;                    // 0: none
         LodSourcePtr scheduling_base;     // null: the job builds; else it only reschedules this
         ByteModelPtr scheduling_bytes;
+        bool shows_key = false; // a LOD of `key` was shown
         std::optional<Failure> failure;
         Scheduled scheduled;
         Shown shown;                  // what `status.lod` was made from

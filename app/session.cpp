@@ -1,5 +1,6 @@
 #include "app/session.h"
 
+#include "app/error_map_jobs.h"
 #include "app/json_text.h"
 #include "app/lane_worker.h"
 #include "app/recent.h"
@@ -59,6 +60,7 @@ struct Session::Impl {
     UiLog log;
     JobQueue jobs;
     LaneWorker lanes;
+    ErrorMapJobs error_maps;
     std::map<JobId, std::filesystem::path> export_paths;
     std::map<JobId, std::uint64_t> export_revisions; // of the document at the start
     std::uint64_t logged_messages = 0;
@@ -66,7 +68,7 @@ struct Session::Impl {
 
     explicit Impl(Options session_options)
         : options(std::move(session_options)), log(options.log_file),
-          jobs(options.worker_threads, options.wake), lanes(jobs) {
+          jobs(options.worker_threads, options.wake), lanes(jobs), error_maps(jobs) {
         if (!options.recent_file.empty())
             document.recent = readRecent(options.recent_file);
     }
@@ -135,7 +137,14 @@ struct Session::Impl {
         lane.status.measuring = true;
     }
 
+    void run(const MeasureRates&) {
+        for (Lane& lane : document.lanes)
+            lane.status.rate_wanted = lane.status.lod != nullptr;
+    }
+
     void run(const CancelJob& command) {
+        for (Lane& lane : document.lanes)
+            lane.status.rate_wanted = false;
         const std::vector<JobStatus> before = jobs.status();
         jobs.cancel(command.job);
         const std::vector<JobStatus> after = jobs.status();
@@ -148,6 +157,8 @@ struct Session::Impl {
     }
 
     void afterCancel(const JobStatus& job) {
+        if (job.kind == JobKind::ErrorMap)
+            error_maps.cancelled(document, job.lane);
         if (job.kind == JobKind::Prepare)
             lanes.markCancelled(document, job.lane);
         if (job.kind == JobKind::Predict)
@@ -195,6 +206,9 @@ struct Session::Impl {
             break;
         case JobKind::Measure:
             commitMeasure(finished);
+            break;
+        case JobKind::ErrorMap:
+            error_maps.commit(document, finished);
             break;
         }
     }
@@ -258,7 +272,8 @@ void Session::Impl::logLane(const Lane& lane, std::size_t index) {
                std::to_string(lane.id),
                fmt::format("\"index\":{},\"algorithm\":{},\"state\":{},\"lod\":{},"
                            "\"triangles\":{},\"unique_triangles\":{},\"instances\":{},"
-                           "\"ratio\":{:.6f},\"bytes\":{},\"measured\":{},\"note\":{}",
+                           "\"ratio\":{:.6f},\"bytes\":{},\"measured\":{},\"rate\":{},\"error_"
+                           "map\":{},\"flip\":{:.6f},\"note\":{}",
                            index,
                            jsonText(lane.settings.algorithm ? lane.settings.algorithm->id
                                                             : std::string_view("original")),
@@ -270,8 +285,30 @@ void Session::Impl::logLane(const Lane& lane, std::size_t index) {
                            numbers.ratio,
                            numbers.predicted_bytes,
                            status.distance.has_value(),
+                           status.rate ? status.rate->frames : 0,
+                           status.error_map.lod_revision,
+                           status.flip.value_or(-1.0),
                            jsonText(numbers.note)));
 }
+
+namespace {
+
+// [[submesh, instance], ...]; instance -1: all.
+std::string selectionJson(const Document& document) {
+    constexpr std::size_t kMost = 100;
+    std::string json;
+    for (std::size_t at = 0; at < std::min(kMost, document.selection.size()); ++at) {
+        const SelectedItem& item = document.selection[at];
+        const bool all = item.instance == kNone;
+        json += fmt::format("{}[{},{}]",
+                            at == 0 ? "" : ",",
+                            item.submesh,
+                            all ? -1 : static_cast<std::int64_t>(item.instance));
+    }
+    return "[" + json + "]";
+}
+
+} // namespace
 
 void Session::Impl::logState() {
     if (!log.enabled())
@@ -279,14 +316,15 @@ void Session::Impl::logState() {
     log.object("document",
                "document",
                fmt::format("\"path\":{},\"scene\":{},\"lanes\":{},\"jobs\":{},\"undo\":{},"
-                           "\"redo\":{},\"active\":{}",
+                           "\"redo\":{},\"active\":{},\"selection\":{}",
                            jsonText(document.path.string()),
                            jsonText(document.scene ? document.scene->name : std::string()),
                            document.lanes.size(),
                            document.jobs.size(),
                            jsonText(document.history.undoName()),
                            jsonText(document.history.redoName()),
-                           document.active_lane));
+                           document.active_lane,
+                           selectionJson(document)));
     for (std::size_t index = 0; index < document.lanes.size(); ++index)
         logLane(document.lanes[index], index);
     for (const JobStatus& job : document.jobs)
@@ -329,7 +367,10 @@ bool Session::update(CommandQueue& commands) {
         impl.commit(finished);
         changed = true;
     }
+    followView(impl.document);
     changed |= impl.lanes.refresh(impl.document);
+    impl.document.jobs = impl.jobs.status();
+    impl.error_maps.start(impl.document);
     impl.document.jobs = impl.jobs.status();
     impl.logState();
     return changed || !impl.document.jobs.empty();
@@ -360,6 +401,22 @@ std::uint64_t Session::predictedBytes(LaneId lane_id, const ExportOptions& optio
 void Session::setFrameTime(LaneId lane_id, double frame_ms) {
     if (Lane* lane = impl_->document.findLane(lane_id))
         lane->status.frame_ms = frame_ms;
+}
+
+void Session::setRate(LaneId lane_id, const std::optional<MeasuredRate>& rate) {
+    if (Lane* lane = impl_->document.findLane(lane_id)) {
+        lane->status.rate = rate;
+        lane->status.rate_wanted = false;
+    }
+}
+
+void Session::setFlip(LaneId lane_id, std::optional<double> flip) {
+    if (Lane* lane = impl_->document.findLane(lane_id))
+        lane->status.flip = flip;
+}
+
+void Session::setViewSide(double shorter_side_px) {
+    impl_->document.view_side_px = shorter_side_px;
 }
 
 void Session::setFraming(Framing framing) {

@@ -35,8 +35,13 @@ public:
     // Exact size of a lane's LOD written with other options, for the export dialog. Cached per
     // scene and options. 0 if the lane shows nothing, and while a job works it out.
     std::uint64_t predictedBytes(LaneId lane, const ExportOptions& options);
-    // The window reports what drawing a lane cost.
+    // What the window finds out: what drawing a lane cost, what measuring its rate gave, how much
+    // its picture differs from the original's (nullopt: not known any more), and how large views
+    // are.
     void setFrameTime(LaneId lane, double frame_ms);
+    void setRate(LaneId lane, const std::optional<MeasuredRate>& rate);
+    void setFlip(LaneId lane, std::optional<double> flip);
+    void setViewSide(double shorter_side_px);
     // What FrameScene, FrameSelection and opening a scene do to the camera where a view's shape is
     // known; part: empty for everything. Without it bounding spheres are framed.
     using Framing = std::function<CameraState(const Document&, const Bounds& part)>;

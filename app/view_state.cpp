@@ -8,8 +8,10 @@ namespace lodestone {
 
 namespace {
 
-constexpr std::array<std::string_view, 7> kShadingNames = {
-    "lit", "clay", "normals", "flat", "uv", "submesh", "instance"};
+constexpr std::array<std::string_view, kShadingModes> kShadingNames = {
+    "lit", "clay", "normals", "flat", "uv", "submesh", "instance", "matcap", "lod"};
+constexpr std::array<std::string_view, 5> kCompareNames = {
+    "grid", "split", "flicker", "heat map", "difference"};
 
 } // namespace
 
@@ -22,6 +24,10 @@ std::optional<ShadingMode> shadingFromName(std::string_view name) {
         if (kShadingNames[index] == name)
             return static_cast<ShadingMode>(index);
     return std::nullopt;
+}
+
+std::string_view compareName(CompareMode compare) {
+    return kCompareNames.at(static_cast<std::size_t>(compare));
 }
 
 CameraState framed(const CameraState& camera, const Bounds& bounds) {

@@ -1,5 +1,6 @@
 #pragma once
 // What all lanes share on screen: camera, light, shading, selection. Plain values; no GL.
+#include "app/color_map.h"
 #include "scene/scene.h"
 
 #include <compare>
@@ -20,17 +21,46 @@ struct CameraState {
     friend bool operator==(const CameraState&, const CameraState&) = default;
 };
 
-enum class ShadingMode : std::uint8_t { Lit, Clay, Normals, Flat, UvChecker, Submesh, Instance };
+enum class ShadingMode : std::uint8_t {
+    Lit,
+    Clay,
+    Normals,
+    Flat,
+    UvChecker,
+    Submesh,
+    Instance,
+    Matcap,
+    LodState,
+};
+constexpr std::size_t kShadingModes = 9;
 
 std::string_view shadingName(ShadingMode shading);                 // "lit", "clay", ...
 std::optional<ShadingMode> shadingFromName(std::string_view name); // nullopt if unknown
 
-enum class CompareMode : std::uint8_t { Grid, Split };
+enum class CompareMode : std::uint8_t {
+    Grid,
+    Split,      // two lanes, a divider between them
+    Flicker,    // two lanes, in turn at one place
+    HeatMap,    // grid; every vertex in the colour of its distance to the original
+    Difference, // grid; every pixel in the colour of its difference from the original's picture
+};
+
+std::string_view compareName(CompareMode compare); // "grid", "split", ...
+
+enum class Backdrop : std::uint8_t { Dark, Gradient, Grey, Light };
+
+// Whose mouse habits the views follow.
+enum class Navigation : std::uint8_t { Lodestone, Blender, Maya };
 
 struct DisplayOptions {
     ShadingMode shading = ShadingMode::Lit;
     bool wireframe = false;
     CompareMode compare = CompareMode::Grid;
+    Backdrop backdrop = Backdrop::Dark;
+    bool grid = false;                   // floor under the scene
+    ColorMap colors = ColorMap::Viridis; // of heat map and difference
+    double shininess = 1.0;              // divides roughness, 0.1..10
+    Navigation navigation = Navigation::Lodestone;
     double light_azimuth_deg = 30.0; // relative to the camera
     double light_elevation_deg = 50.0;
 

@@ -85,6 +85,7 @@ public:
             input.scene = &uploaded->scene;
             input.lod = &uploaded->lod;
             input.options.shading = shadingFor(request.shading);
+            input.options.value_colors = valueColors(ColorMap::Viridis);
             input.options.background = Background::Transparent; // drawPicture puts it under
             input.size = {static_cast<int>(request.width_px), static_cast<int>(request.height_px)};
             for (std::size_t v = 0; v < cameras.size(); ++v) {
@@ -176,6 +177,7 @@ private:
         input.lod = &uploaded->lod;
         input.camera = *camera;
         input.options.shading = shadingFor(request.shading);
+        input.options.value_colors = valueColors(ColorMap::Viridis);
         input.options.wireframe = request.wireframe;
         input.size = {static_cast<int>(request.width_px), static_cast<int>(request.height_px)};
         if (const auto drawn = view->draw(input); !drawn)
@@ -205,6 +207,7 @@ private:
 #ifdef LODESTONE_WITH_WINDOW
             options.font = ui::systemFontFile();
 #endif
+            options.columns = sheetColumns(static_cast<std::uint32_t>(cells.size()));
             sheet = composeSheet(cells, options);
         }
         if (!sheet)

@@ -17,30 +17,161 @@ constexpr std::chrono::milliseconds kRest{150};   // no input for so long: refin
 LanePictures::LanePictures(const GlContext& context, const Renderer& renderer)
     : pictures_(renderer), drafts_(context.info().is_software ? kSoftwareMsPerTriangle : 0.0) {}
 
+std::vector<ViewSet::Wanted> LanePictures::wantedPictures(const Document& document,
+                                                          std::span<const ui::ViewRequest> views) {
+    const bool heat = document.view.compare == CompareMode::HeatMap;
+    const bool moving = document.view.compare != CompareMode::Difference;
+    const Clock::time_point now = Clock::now();
+    std::vector<Highlight> highlighted;
+    for (const SelectedItem& item : document.selection)
+        highlighted.push_back({item.submesh, item.instance});
+    std::vector<ViewSet::Wanted> wanted;
+    for (const ui::ViewRequest& view : views) {
+        const Lane* const lane = document.findLane(view.lane);
+        if (!lane)
+            continue;
+        const LaneStatus& status = lane->status;
+        const bool drafted = moving && now < rests_at_[lane->id];
+        wanted.push_back({view.lane,
+                          status.scene,
+                          heat && status.error_map.lod ? status.error_map.lod : status.lod,
+                          drafted ? drafts_.draftOf(document, *lane) : nullptr,
+                          {view.width_px, view.height_px},
+                          {}});
+        if (status.scene == document.scene && document.view.compare != CompareMode::Difference)
+            wanted.back().highlighted = highlighted;
+    }
+    return wanted;
+}
+
+// The original's picture, where a difference from it is wanted and no lane in view shows it.
+void LanePictures::addReference(const Document& document, std::vector<ViewSet::Wanted>& wanted) {
+    if (document.view.compare != CompareMode::Difference || wanted.empty() || !document.scene)
+        return;
+    for (const ViewSet::Wanted& lane : wanted)
+        if (!document.findLane(lane.key)->settings.algorithm)
+            return;
+    if (reference_scene_ != document.scene) {
+        reference_scene_ = document.scene;
+        reference_lod_ = std::make_shared<const Lod>(fullLod(*document.scene));
+    }
+    wanted.push_back({kNoLane, reference_scene_, reference_lod_, nullptr, wanted.front().size, {}});
+}
+
 bool LanePictures::draw(Session& session, std::span<const ui::ViewRequest> views) {
     const Document& document = session.document();
     noteMotion(document);
-    const Clock::time_point now = Clock::now();
-    std::vector<ViewSet::Wanted> wanted;
-    for (const ui::ViewRequest& view : views)
-        if (const Lane* const lane = document.findLane(view.lane))
-            wanted.push_back(
-                {view.lane,
-                 lane->status.scene,
-                 lane->status.lod,
-                 now < rests_at_[lane->id] ? drafts_.draftOf(document, *lane) : nullptr,
-                 {view.width_px, view.height_px}});
-    view_aspect_ =
-        views.empty() ? 1.0 : ViewSize{views.front().width_px, views.front().height_px}.aspect();
+    std::vector<ViewSet::Wanted> wanted = wantedPictures(document, views);
+    addReference(document, wanted);
+    if (!views.empty()) {
+        const ViewSize size{views.front().width_px, views.front().height_px};
+        view_aspect_ = size.aspect();
+        session.setViewSide(std::min(size.width_px, size.height_px));
+    }
     const auto drawn = pictures_.draw(wanted,
                                       orbitCamera(document.camera, document.bounds, view_aspect_),
-                                      viewOptions(document.view),
+                                      viewOptions(document.view, errorMapFull(document)),
                                       kPictureBudgetMs);
     if (!drawn) {
         session.reportError(drawn.error().message); // repeats are counted, not listed again
         return false;
     }
-    return take(session, *drawn);
+    const bool changed = take(session, *drawn);
+    compare(session, *drawn);
+    measureNext(session);
+    return changed;
+}
+
+// Puts the differences in the place of the pictures.
+void LanePictures::compare(Session& session, std::span<const ViewSet::Picture> drawn) {
+    const Document& document = session.document();
+    if (document.view.compare != CompareMode::Difference) {
+        differences_.clear(session);
+        return;
+    }
+    const auto is_reference = [&](const ViewSet::Picture& picture) {
+        const Lane* const lane = document.findLane(picture.key);
+        return !lane || !lane->settings.algorithm;
+    };
+    const auto reference = std::ranges::find_if(drawn, is_reference);
+    if (reference == drawn.end())
+        return;
+    differences_.update(session, pictures_, drawn, *reference, document.view.colors);
+    waiting_ = waiting_ || differences_.busy();
+    for (ui::LanePicture& picture : shown_) {
+        const Lane* const lane = document.findLane(picture.lane);
+        const auto difference = differences_.of(picture.lane);
+        if (!lane || !lane->settings.algorithm)
+            continue;
+        picture.draft = picture.draft || !difference.current;
+        if (difference.texture != 0)
+            // NOLINTNEXTLINE(performance-no-int-to-ptr): what Dear ImGui calls a texture
+            picture.texture =
+                reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(difference.texture));
+    }
+}
+
+// A little more of the papers' protocol, for the first lane that is to be measured.
+void LanePictures::measureNext(Session& session) {
+    constexpr std::uint64_t kWarmUpFrames = 100;
+    constexpr std::uint64_t kFrames = 1000;
+    constexpr double kSliceSeconds = 0.04;
+    constexpr std::chrono::seconds kLongest{4}; // slow renderers would need minutes
+    const Document& document = session.document();
+    for (const Lane& lane : document.lanes) {
+        if (!lane.status.rate_wanted)
+            continue;
+        const auto shown = std::ranges::find(shown_, lane.id, &ui::LanePicture::lane);
+        if (shown == shown_.end()) {
+            session.setRate(lane.id, std::nullopt); // not in view
+            continue;
+        }
+        stale_ = true; // there is more to do
+        if (shown->draft)
+            return;
+        if (measuring_.lane != lane.id || measuring_.lod_revision != lane.status.lod_revision)
+            measuring_ = {lane.id, lane.status.lod_revision, 0, 0, 0.0, Clock::now()};
+        const auto slice = pictures_.measure(lane.id, {0, kFrames, kSliceSeconds});
+        if (!slice) {
+            session.reportError(slice.error().message);
+            session.setRate(lane.id, std::nullopt);
+            return;
+        }
+        const bool warm = measuring_.warm_up_frames >= kWarmUpFrames ||
+                          Clock::now() - measuring_.begun > kLongest / 4;
+        if (!warm) {
+            measuring_.warm_up_frames += slice->frames;
+            return;
+        }
+        measuring_.frames += slice->frames;
+        measuring_.total_ms += slice->mean_ms * static_cast<double>(slice->frames);
+        if (measuring_.frames >= kFrames || Clock::now() - measuring_.begun > kLongest) {
+            const auto frames = static_cast<double>(measuring_.frames);
+            session.setRate(lane.id, MeasuredRate{measuring_.total_ms / frames, measuring_.frames});
+            measuring_ = {};
+        }
+        return;
+    }
+}
+
+std::optional<SelectedItem>
+LanePictures::pick(const Document& document, LaneId lane_id, const glm::dvec2& point) const {
+    const auto shows_original = [&](LaneId id) {
+        const Lane* const lane = document.findLane(id);
+        return lane && lane->status.scene == document.scene;
+    };
+    LaneId asked = lane_id;
+    if (!shows_original(asked)) {
+        const auto other = std::ranges::find_if(
+            shown_, [&](const ui::LanePicture& picture) { return shows_original(picture.lane); });
+        if (other == shown_.end())
+            return std::nullopt;
+        asked = other->lane;
+    }
+    const std::optional<Picked> picked = pictures_.pick(asked, point);
+    if (!picked)
+        return std::nullopt;
+    return SelectedItem{picked->submesh, picked->instance};
 }
 
 // Lanes whose picture becomes another one rest a moment later: all of them when the camera or the
@@ -61,7 +192,8 @@ void LanePictures::noteMotion(const Document& document) {
 }
 
 bool LanePictures::take(Session& session, const std::vector<ViewSet::Picture>& drawn) {
-    bool changed = drawn.size() != shown_.size();
+    const bool has_reference = !drawn.empty() && drawn.back().key == kNoLane;
+    bool changed = drawn.size() != shown_.size() + (has_reference ? 1 : 0);
     shown_.clear();
     stale_ = false;
     waiting_ = false;
@@ -77,6 +209,8 @@ bool LanePictures::take(Session& session, const std::vector<ViewSet::Picture>& d
             if (picture.cost_ms > 0.0)
                 session.setFrameTime(picture.key, picture.cost_ms);
         }
+        if (picture.key == kNoLane)
+            continue; // the reference
         shown_.push_back(
             {picture.key,
              // NOLINTNEXTLINE(performance-no-int-to-ptr): what Dear ImGui calls a texture

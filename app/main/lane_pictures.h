@@ -2,6 +2,7 @@
 // The lanes' pictures in the window: which LOD or draft of it each view shows, drawn a few a frame.
 // Main thread, context current.
 #include "app/drafts.h"
+#include "app/main/picture_differences.h"
 #include "app/session.h"
 #include "render/view_set.h"
 #include "ui/window_state.h"
@@ -35,17 +36,41 @@ public:
     // When the next draft is to be refined, if that is after `now`; else `latest`.
     Clock::time_point nextRefinement(Clock::time_point now, Clock::time_point latest) const;
 
+    // What is seen at a point of a lane's view (0..1 from the left and from the top), in the
+    // original's numbering; a lane of another scene's answer is that of one which shows it.
+    std::optional<SelectedItem>
+    pick(const Document& document, LaneId lane, const glm::dvec2& point) const;
+
     // The camera turned as it is, near enough that the part, or the whole scene if it is empty,
     // fills the views.
     CameraState framedCamera(const Document& document, const Bounds& part);
 
 private:
+    std::vector<ViewSet::Wanted> wantedPictures(const Document& document,
+                                                std::span<const ui::ViewRequest> views);
+    void addReference(const Document& document, std::vector<ViewSet::Wanted>& wanted);
+    void compare(Session& session, std::span<const ViewSet::Picture> drawn);
+    void measureNext(Session& session);
     void noteMotion(const Document& document);
     bool take(Session& session, const std::vector<ViewSet::Picture>& drawn);
 
     ViewSet pictures_;
     Drafts drafts_;
     std::vector<ui::LanePicture> shown_;
+    PictureDifferences differences_;
+    std::shared_ptr<const Lod> reference_lod_; // full, of reference_scene_
+    ScenePtr reference_scene_;
+
+    struct Measuring {
+        LaneId lane = kNoLane;
+        std::uint64_t lod_revision = 0;
+        std::uint64_t warm_up_frames = 0;
+        std::uint64_t frames = 0;
+        double total_ms = 0.0; // of the counted frames
+        Clock::time_point begun;
+    };
+
+    Measuring measuring_;
     ScenePtr framed_scene_;
     FramePoints frame_points_; // of framed_scene_
     double view_aspect_ = 1.0;

@@ -28,9 +28,31 @@ Shading shadingFor(ShadingMode mode) {
         return Shading::BySubmesh;
     case ShadingMode::Instance:
         return Shading::ByInstance;
+    case ShadingMode::Matcap:
+        return Shading::Matcap;
+    case ShadingMode::LodState:
+        return Shading::ByLodState;
     }
     return Shading::Lit;
 }
+
+namespace {
+
+glm::vec3 backdropColor(Backdrop backdrop) {
+    switch (backdrop) {
+    case Backdrop::Grey:
+        return glm::vec3(0.46f);
+    case Backdrop::Light:
+        return {0.87f, 0.88f, 0.90f};
+    case Backdrop::Gradient:
+        return {0.17f, 0.19f, 0.22f};
+    case Backdrop::Dark:
+        break;
+    }
+    return ViewOptions().background_srgb;
+}
+
+} // namespace
 
 OrbitCamera orbitCamera(const CameraState& state, const Bounds& bounds, double aspect) {
     OrbitCamera camera;
@@ -47,11 +69,29 @@ OrbitCamera orbitCamera(const CameraState& state, const Bounds& bounds, double a
     return camera;
 }
 
-ViewOptions viewOptions(const DisplayOptions& display) {
+std::array<glm::vec3, 9> valueColors(ColorMap map) {
+    std::array<glm::vec3, 9> colors{};
+    for (std::size_t i = 0; i < colors.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            colors[i][c] =
+                static_cast<float>(mapColors(map)[i][static_cast<std::size_t>(c)]) / 255.0f;
+    return colors;
+}
+
+ViewOptions viewOptions(const DisplayOptions& display, double value_full) {
     ViewOptions options;
     options.shading = shadingFor(display.shading);
     options.wireframe = display.wireframe;
-    options.background = Background::Solid;
+    options.background =
+        display.backdrop == Backdrop::Gradient ? Background::Gradient : Background::Solid;
+    options.background_srgb = backdropColor(display.backdrop);
+    options.grid = display.grid;
+    options.shininess = static_cast<float>(display.shininess);
+    options.value_colors = valueColors(display.colors);
+    if (display.compare == CompareMode::HeatMap) {
+        options.shading = Shading::ByValue;
+        options.value_full = static_cast<float>(value_full);
+    }
     options.light_azimuth_rad = static_cast<float>(-display.light_azimuth_deg * kRadiansPerDegree);
     options.light_elevation_rad =
         static_cast<float>(display.light_elevation_deg * kRadiansPerDegree);

@@ -11,6 +11,9 @@ Shading shadingFor(ShadingMode mode);
 // cut nothing off.
 OrbitCamera orbitCamera(const CameraState& state, const Bounds& bounds, double aspect);
 
-ViewOptions viewOptions(const DisplayOptions& display);
+std::array<glm::vec3, 9> valueColors(ColorMap map);
+
+// value_full: what the last colour of a heat map stands for.
+ViewOptions viewOptions(const DisplayOptions& display, double value_full);
 
 } // namespace lodestone

@@ -25,6 +25,9 @@ public:
         session_.setFraming([this](const Document& document, const Bounds& part) {
             return pictures_.framedCamera(document, part);
         });
+        facts_.pick = [this](LaneId lane, const glm::dvec2& point) {
+            return pictures_.pick(session_.document(), lane, point);
+        };
         facts_.renderer = shortRendererName(context.info().renderer);
         if (request.file)
             commands_.push(OpenScene{*request.file});

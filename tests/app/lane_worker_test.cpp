@@ -147,6 +147,48 @@ TEST_F(LaneWorkerTest, TheLastPictureStaysWhileANewBuildRuns) {
     EXPECT_EQ(lane(id).status.lod, shown);
 }
 
+TEST_F(LaneWorkerTest, ADraggedParameterFinishesAndShowsTheBuildUnderWayAndThenTheNewest) {
+    const LaneId id = addFakeLane();
+    settle();
+    const auto first = lane(id).status.source;
+    fixtures::fakeBuilds().hold = true;
+    constexpr DragKey kDrag = 7;
+    applyCommand(document, SetLaneParameter{id, "strength", 2.0, kDrag});
+    frame();
+    waitForStart(2);
+    for (const double strength : {3.0, 4.0, 5.0}) {
+        applyCommand(document, SetLaneParameter{id, "strength", strength, kDrag});
+        frame();
+    }
+    EXPECT_EQ(fixtures::fakeBuilds().started, 2) << "every move began a build";
+    fixtures::fakeBuilds().hold = false;
+    while (lane(id).status.source == first) { // while the mouse is still held
+        jobs.waitForFinished(50);
+        frame();
+    }
+    EXPECT_EQ(fixtures::fakeBuilds().stopped, 0);
+    settle();
+    EXPECT_EQ(fixtures::fakeBuilds().started, 3) << "the newest, and nothing between";
+    EXPECT_EQ(lane(id).status.state, LaneState::Ready);
+}
+
+TEST_F(LaneWorkerTest, TheEndOfADragStopsABuildForAnEarlierPlace) {
+    const LaneId id = addFakeLane();
+    settle();
+    fixtures::fakeBuilds().hold = true;
+    applyCommand(document, SetLaneParameter{id, "strength", 2.0, 7});
+    frame();
+    waitForStart(2);
+    applyCommand(document, SetLaneParameter{id, "strength", 3.0, 7});
+    applyCommand(document, EndDrag{});
+    frame();
+    waitForStart(3);
+    fixtures::fakeBuilds().hold = false;
+    settle();
+    EXPECT_EQ(fixtures::fakeBuilds().stopped, 1);
+    EXPECT_EQ(lane(id).status.state, LaneState::Ready);
+}
+
 TEST_F(LaneWorkerTest, UndoFindsTheEarlierBuildAgain) {
     const LaneId id = addFakeLane();
     settle();

@@ -105,6 +105,53 @@ TEST_F(SessionTest, AMeasuredDistanceBelongsToTheLodShown) {
     EXPECT_FALSE(session.document().findLane(id)->status.distance.has_value());
 }
 
+TEST_F(SessionTest, TheHeatMapsModeMakesAMapOfEveryLodShown) {
+    Session session(options());
+    send(session, OpenSample{"chair"});
+    DisplayOptions view = session.document().view;
+    view.compare = CompareMode::HeatMap;
+    send(session, SetView{view});
+    const auto expect_current = [&] {
+        for (const Lane& lane : session.document().lanes) {
+            ASSERT_TRUE(lane.status.error_map.lod);
+            EXPECT_EQ(lane.status.error_map.lod_revision, lane.status.lod_revision);
+            EXPECT_EQ(lane.status.error_map.lod->triangles, lane.status.lod->triangles);
+            EXPECT_EQ(lane.status.error_map.peak > 0.0, lane.settings.algorithm != nullptr);
+        }
+    };
+    expect_current();
+    const double peak = session.document().lanes[1].status.error_map.peak;
+    EXPECT_GE(errorMapFull(session.document()), peak);
+    send(session, SetMasterTarget{{Target::Kind::Ratio, 0.08}});
+    expect_current();
+    EXPECT_GT(session.document().lanes[1].status.error_map.peak, peak);
+}
+
+TEST_F(SessionTest, ATargetInPixelsFollowsTheCameraAndUndoLeavesIt) {
+    Session session(options());
+    send(session, OpenSample{"chair"});
+    const LaneId id = session.document().lanes[1].id;
+    const auto triangles = [&] {
+        return session.document().findLane(id)->status.numbers.triangles;
+    };
+    const std::uint64_t at_first = triangles();
+    send(session, SetMasterPixels{4.0});
+    const std::uint64_t near = triangles();
+    CameraState camera = session.document().camera;
+    camera.distance *= 4.0;
+    send(session, SetCamera{camera});
+    EXPECT_LT(triangles(), near);
+    camera.distance *= 0.25;
+    send(session, SetCamera{camera});
+    EXPECT_EQ(triangles(), near);
+    send(session, Undo{});
+    EXPECT_EQ(triangles(), at_first);
+    EXPECT_FALSE(session.document().master_px || session.document().lanes[1].settings.error_px);
+    const std::size_t warnings = session.document().messages.size();
+    send(session, SetLanePixels{id, 0.0});
+    EXPECT_EQ(session.document().messages.size(), warnings + 1);
+}
+
 TEST_F(SessionTest, TheLogIsJsonLinesThatFollowTheLanes) {
     {
         Session session(options());
