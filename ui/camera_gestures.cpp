@@ -63,18 +63,57 @@ std::optional<DisplayOptions> lightGesture(const DisplayOptions& view) {
     return lit;
 }
 
-std::optional<CameraState>
-cameraGesture(const CameraState& camera, float shorter_side, double fov_rad) {
+namespace {
+
+enum class Gesture : std::uint8_t { None, Orbit, Pan, Zoom };
+
+Gesture gestureOf(Navigation navigation, const ImGuiIO& io) {
+    const bool left = ImGui::IsMouseDown(ImGuiMouseButton_Left);
+    const bool middle = ImGui::IsMouseDown(ImGuiMouseButton_Middle);
+    const bool right = ImGui::IsMouseDown(ImGuiMouseButton_Right);
+    if (left && io.KeyAlt)
+        return Gesture::Orbit;
+    switch (navigation) {
+    case Navigation::Blender:
+        if (!middle)
+            return Gesture::None;
+        return io.KeyShift ? Gesture::Pan : io.KeyCtrl ? Gesture::Zoom : Gesture::Orbit;
+    case Navigation::Maya:
+        if (!io.KeyAlt)
+            return Gesture::None;
+        return middle ? Gesture::Pan : right ? Gesture::Zoom : Gesture::None;
+    case Navigation::Lodestone:
+        break;
+    }
+    if (right || (middle && io.KeyShift))
+        return Gesture::Pan;
+    return left || middle ? Gesture::Orbit : Gesture::None;
+}
+
+} // namespace
+
+std::optional<CameraState> cameraGesture(const CameraState& camera, const GestureView& view) {
+    constexpr double kZoomPerUnit = 0.006; // of mouse travel
     const ImGuiIO& io = ImGui::GetIO();
     CameraState moved = camera;
     if (ImGui::IsItemActive()) {
-        const bool middle = ImGui::IsMouseDown(ImGuiMouseButton_Middle);
-        const bool pans = ImGui::IsMouseDown(ImGuiMouseButton_Right) || (middle && io.KeyShift);
-        const double unit_size = 2.0 * camera.distance * std::tan(fov_rad * 0.5) /
-                                 static_cast<double>(std::max(1.0f, shorter_side));
+        const double unit_size = 2.0 * camera.distance * std::tan(view.fov_rad * 0.5) /
+                                 static_cast<double>(std::max(1.0f, view.shorter_side));
         const auto right = static_cast<double>(io.MouseDelta.x);
         const auto down = static_cast<double>(io.MouseDelta.y);
-        moved = pans ? panned(moved, -right, down, unit_size) : orbited(moved, right, down);
+        switch (gestureOf(view.navigation, io)) {
+        case Gesture::Orbit:
+            moved = orbited(moved, right, down);
+            break;
+        case Gesture::Pan:
+            moved = panned(moved, -right, down, unit_size);
+            break;
+        case Gesture::Zoom:
+            moved = zoomed(moved, std::exp((down - right) * kZoomPerUnit));
+            break;
+        case Gesture::None:
+            break;
+        }
     }
     if (ImGui::IsItemHovered() && io.MouseWheel != 0.0f)
         moved = zoomed(moved, std::pow(kZoomPerNotch, static_cast<double>(io.MouseWheel)));

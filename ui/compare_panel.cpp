@@ -14,6 +14,7 @@ namespace {
 
 constexpr float kTitleHeight = 26.0f;
 constexpr float kRowHeight = 29.0f;
+constexpr float kWidthOfBothCharts = 1700.0f; // of the panel
 
 struct Column {
     std::string_view title;
@@ -43,7 +44,14 @@ std::array<std::string, kColumns.size()> cellsOf(const Lane& lane) {
         cells[1] = formatRatio(status.numbers.ratio);
         cells[2] = formatBytes(status.numbers.predicted_bytes);
     }
-    if (status.frame_ms > 0.0) {
+    if (status.rate_wanted) {
+        cells[3] = cells[4] = "\u2026";
+    } else if (status.rate) {
+        cells[3] = formatRate(1000.0 / std::max(status.rate->mean_ms, 1e-6));
+        char time[16] = "";
+        std::snprintf(time, sizeof time, "%.1f", status.rate->mean_ms);
+        cells[4] = time;
+    } else if (status.frame_ms > 0.0) {
         cells[3] = formatRate(framesPerSecond(lane));
         char time[16] = "";
         std::snprintf(time, sizeof time, "%.1f", status.frame_ms);
@@ -64,6 +72,14 @@ void drawTitles(const Ui& ui, const ImVec2& begin, float width) {
     const float y = begin.y + ui.px(8);
     const TextStyle style{ui.theme.fonts.small, color::kSecondary};
     drawText(ui, {begin.x + ui.px(8), y}, Align::Left, "Lane", style);
+    ImGui::SetCursorScreenPos({begin.x + ui.px(52), begin.y + ui.px(6)});
+    if (linkButton(ui, "Measure", color::kAccent)) {
+        ui.push(MeasureLane{kNoLane});
+        ui.push(MeasureRates{});
+    }
+    tooltip(ui,
+            "Distances to the original from 300 000 points, and the frame rate by the papers' "
+            "protocol: drawn off screen again and again, frames 100 to 1 100 (up to 4 s a lane).");
     drawText(
         ui, {begin.x + width * static_cast<float>(kSliderBegin), y}, Align::Left, "Target", style);
     for (const Column& column : kColumns)
@@ -147,23 +163,54 @@ void drawTable(const Ui& ui, const PanelInput& input, const WindowState& state, 
 
 } // namespace
 
+namespace {
+
+// Size and error over triangles: both where there is room, else one of them by choice.
+void drawCharts(const Ui& ui, const PanelInput& input, WindowState& state, const Area& area) {
+    constexpr std::array<std::string_view, 2> kKinds = {"size", "error"};
+    constexpr std::array<std::string_view, 2> kTips = {
+        "The exported size of every lane over its triangles.",
+        "The estimated error of every lane over its triangles; rings are measured maxima."};
+    if (ImGui::GetIO().DisplaySize.x >= ui.px(kWidthOfBothCharts)) {
+        const float gap = ui.px(16);
+        const ImVec2 half{(area.size.x - gap) * 0.5f, area.size.y};
+        drawLaneChart(ui, input, state, ChartKind::Size, {area.position, half});
+        drawLaneChart(ui,
+                      input,
+                      state,
+                      ChartKind::Error,
+                      {{area.position.x + half.x + gap, area.position.y}, half});
+        return;
+    }
+    const bool error = state.chart == ChartKind::Error;
+    ImGui::SetCursorScreenPos(
+        {area.end().x - segmentedWidth(ui, kKinds), area.position.y - ui.px(4)});
+    if (segmented(ui, {"Chart", kKinds, error ? 1 : 0, kTips}))
+        state.chart = error ? ChartKind::Size : ChartKind::Error;
+    drawLaneChart(ui, input, state, state.chart, area);
+}
+
+} // namespace
+
 void drawComparePanel(Ui ui, const PanelInput& input, WindowState& state, const Area& area) {
     ui.panel = "Compare";
     if (area.size.y <= 0)
         return;
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
     beginPanel("Compare", area.position, area.size, PanelScroll::None);
-    const float chart_width = std::round(std::max(ui.px(270), area.size.x * 0.24f));
+    const bool both = area.size.x >= ui.px(kWidthOfBothCharts);
+    const float chart_width =
+        std::round(std::max(ui.px(270), area.size.x * (both ? 0.40f : 0.24f)));
     const float margin = ui.px(12);
     const Area table{{area.position.x + margin, area.position.y},
                      {area.size.x - chart_width - 3 * margin, area.size.y - ui.px(4)}};
     if (input.document.scene) {
         drawTable(ui, input, state, table);
-        drawSizeChart(ui,
-                      input,
-                      state,
-                      {{table.end().x + margin, area.position.y + ui.px(8)},
-                       {chart_width, area.size.y - ui.px(14)}});
+        drawCharts(ui,
+                   input,
+                   state,
+                   {{table.end().x + margin, area.position.y + ui.px(8)},
+                    {chart_width, area.size.y - ui.px(14)}});
     }
     horizontalHairline(ui, area.position.x, area.end().x, area.position.y);
     endPanel();

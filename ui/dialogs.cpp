@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 
 namespace lodestone::ui {
 
@@ -215,20 +216,49 @@ void drawExport(const Ui& ui, const PanelInput& input, WindowState& state) {
 
 // --- small ones ---
 
+bool contains(std::string_view text, std::string_view part) {
+    const auto same = [](char a, char b) {
+        return std::tolower(static_cast<unsigned char>(a)) ==
+               std::tolower(static_cast<unsigned char>(b));
+    };
+    return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end();
+}
+
+// All keys in two columns; typing leaves those that match.
 void drawShortcuts(const Ui& ui, WindowState& state) {
-    const float column = ui.px(330);
+    if (ImGui::IsWindowAppearing()) {
+        state.sheet_filter.clear();
+        ImGui::SetKeyboardFocusHere();
+    }
+    const float column = ui.px(350);
+    const float width = 2 * column + ui.px(24);
+    textField(ui, "Search", state.sheet_filter, width);
+    if (state.sheet_filter.empty())
+        drawText(ui,
+                 ImGui::GetItemRectMin() + ImVec2(ui.px(10), ui.px(6)),
+                 Align::Left,
+                 "Search keys and actions",
+                 {nullptr, color::kFaint});
+    ImGui::Dummy({0, ui.px(4)});
     const ImVec2 begin = ImGui::GetCursorScreenPos();
-    const std::span<const Shortcut> all = shortcuts();
-    const std::size_t half = (all.size() + 1) / 2;
+    const std::size_t half = (shortcuts().size() + 1) / 2;
     const float line = ui.px(21);
-    for (std::size_t at = 0; at < all.size(); ++at) {
+    std::size_t at = 0;
+    for (const Shortcut& shortcut : shortcuts()) {
+        if (!contains(shortcut.keys, state.sheet_filter) &&
+            !contains(shortcut.action, state.sheet_filter))
+            continue;
         const float x = begin.x + (at < half ? 0.0f : column + ui.px(24));
         const float y = begin.y + line * static_cast<float>(at < half ? at : at - half);
-        drawText(ui, {x, y}, Align::Left, all[at].keys, {ui.theme.fonts.semibold});
+        drawText(ui, {x, y}, Align::Left, shortcut.keys, {ui.theme.fonts.semibold});
         drawText(
-            ui, {x + ui.px(128), y}, Align::Left, all[at].action, {nullptr, color::kSecondary});
+            ui, {x + ui.px(132), y}, Align::Left, shortcut.action, {nullptr, color::kSecondary});
+        ++at;
     }
-    ImGui::Dummy({2 * column + ui.px(24), line * static_cast<float>(half) + ui.px(8)});
+    ui.log.object("sheet", "sheet", "\"rows\":" + std::to_string(at));
+    if (at == 0)
+        drawText(ui, begin, Align::Left, "No key does that.", {nullptr, color::kSecondary});
+    ImGui::Dummy({width, line * static_cast<float>(half) + ui.px(8)});
     if (button(ui, "Close", ui.px(92)))
         close(state);
 }

@@ -37,16 +37,20 @@ void algorithmCombo(const Ui& ui, const Lane& lane) {
     ui.push(SetLaneAlgorithm{lane.id, std::string(id)});
 }
 
-void targetKind(const Ui& ui, const Lane& lane) {
-    constexpr std::array<std::string_view, 4> kKinds = {"%", "tri", "size", "error"};
-    constexpr std::array<std::string_view, 4> kTips = {
+void targetKind(const Ui& ui, const Document& document, const Lane& lane) {
+    constexpr std::array<std::string_view, 5> kKinds = {"%", "tri", "size", "error", "px"};
+    constexpr std::array<std::string_view, 5> kTips = {
         "Target as a share of the original's triangles.",
         "Target as a number of triangles, instances counted.",
         "Target as the size of the exported file.",
-        "Target as the estimated error in % of the scene's diagonal."};
-    const auto selected = static_cast<int>(lane.settings.target.kind);
+        "Target as the estimated error in % of the scene's diagonal.",
+        "Target as the estimated error in pixels of a view; it follows the camera."};
+    const int selected = lane.settings.error_px ? 4 : static_cast<int>(lane.settings.target.kind);
     const float width = ImGui::GetContentRegionAvail().x;
-    if (const auto chosen = segmented(ui, {"Target kind", kKinds, selected, kTips, width}))
+    const auto chosen = segmented(ui, {"Target kind", kKinds, selected, kTips, width});
+    if (chosen == 4)
+        ui.push(SetLanePixels{lane.id, shownPixels(document, lane)});
+    else if (chosen)
         ui.push(SetLaneTarget{lane.id, sameTarget(lane, static_cast<Target::Kind>(*chosen))});
 }
 
@@ -170,7 +174,7 @@ void drawLane(const Ui& ui, const PanelInput& input, WindowState& state, const L
     gap(ui, 1);
     if (lane.settings.algorithm) {
         laneTargetSlider(ui, input, state, lane, 0.0f);
-        targetKind(ui, lane);
+        targetKind(ui, input.document, lane);
         gap(ui, 0);
         followToggle(ui, lane);
         if (lane.settings.algorithm->family == Family::EdgeCollapse)

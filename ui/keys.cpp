@@ -3,6 +3,7 @@
 #include "ui/panels.h"
 #include "ui/shortcuts.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -20,10 +21,11 @@ constexpr int kKeyF11 = 300;
 constexpr int kKeypad0 = 320;
 
 constexpr double kScaleStep = 1.1;
+constexpr double kShineStep = 1.25;
 constexpr DragKey kAnimationDrag = 0x414e494d45ull; // a whole animation is one undo step
 constexpr DragKey kStepDrag = 0x5354455053ull; // collapsing while a key is held is one undo step
 
-constexpr std::array<Shortcut, 31> kShortcuts = {{
+constexpr std::array<Shortcut, 35> kShortcuts = {{
     {"Left drag", "orbit (also Alt+left, middle)"},
     {"Right drag", "pan (also Shift+middle)"},
     {"Wheel", "zoom"},
@@ -39,19 +41,23 @@ constexpr std::array<Shortcut, 31> kShortcuts = {{
     {"L", "wireframe"},
     {"S / Shift+S", "smaller / larger"},
     {"Z / Shift+Z", "further / nearer"},
+    {"M / Shift+M", "shinier / duller"},
+    {"G", "floor grid"},
     {"F11", "full screen"},
     {"Click on a value", "type it"},
     {"C (hold)", "collapse 5 edges at a time"},
     {"B", "collapse one edge"},
-    {"V", "split back two edges"},
+    {"V / Shift+V", "split back two edges"},
     {"Ctrl+O", "open a file"},
     {"Ctrl+E", "export the active lane"},
     {"Ctrl+3 6 9", "IAS vs Quadric, six methods, all nine"},
     {"Ctrl+Z", "undo"},
     {"Ctrl+Shift+Z", "redo"},
     {"Ctrl+Q", "quit"},
-    {"Click in a view", "make its lane the active one"},
-    {"Shift+click", "add a submesh to the selection"},
+    {"Click in a view", "its lane is active, the instance selected"},
+    {"Double click", "select all instances of the submesh"},
+    {"Shift+click", "add to the selection, or take away"},
+    {"View > Mouse like", "Blender: middle drag; Maya: Alt+drag"},
     {"F1", "this sheet"},
     {"Esc", "cancel drag, dialog or job, then quit"},
     {"Drop a file", "open it"},
@@ -118,6 +124,15 @@ void viewKeys(const Ui& ui, DisplayOptions view, WindowState& state) {
     }
     if (pressed('L')) {
         view.wireframe = !view.wireframe;
+        ui.push(SetView{view});
+    }
+    if (pressed('G')) {
+        view.grid = !view.grid;
+        ui.push(SetView{view});
+    }
+    if (held('M')) {
+        const double factor = ImGui::GetIO().KeyShift ? 1.0 / kShineStep : kShineStep;
+        view.shininess = std::clamp(view.shininess * factor, 0.1, 10.0);
         ui.push(SetView{view});
     }
     if (pressed('1'))

@@ -1,4 +1,5 @@
 #include "ui/lane_view.h"
+#include "ui/legend.h"
 #include "ui/widgets.h"
 
 #include <algorithm>
@@ -77,6 +78,8 @@ void drawPicture(
     if (ImGui::IsItemActivated())
         ui.push(SetActiveLane{lane.id});
     laneGestures(ui, input, state, area);
+    pickGesture(ui, input, lane.id, area);
+    drawLegend(ui, input.document, lane, area);
     drawLaneState(ui, state, lane, picture && picture->draft, area);
     requestPicture(input, state, lane.id, area);
 }
@@ -130,8 +133,13 @@ void drawLaneGrid(Ui ui, const PanelInput& input, WindowState& state, const Area
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
     ImGui::PushStyleColor(ImGuiCol_WindowBg, color::kView);
     beginPanel("Grid", area.position, area.size, PanelScroll::None);
-    if (input.document.view.compare == CompareMode::Split && input.document.lanes.size() > 1) {
-        drawSplitView(ui, input, state, area);
+    const CompareMode compare = input.document.view.compare;
+    const bool one_place = compare == CompareMode::Split || compare == CompareMode::Flicker;
+    if (one_place && input.document.lanes.size() > 1) {
+        if (compare == CompareMode::Split)
+            drawSplitView(ui, input, state, area);
+        else
+            drawFlickerView(ui, input, state, area);
         endPanel();
         ImGui::PopStyleColor();
         ImGui::PopStyleVar();

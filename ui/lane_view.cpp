@@ -226,15 +226,42 @@ void drawLaneState(
     }
 }
 
+void pickGesture(const Ui& ui, const PanelInput& input, LaneId lane, const Area& area) {
+    constexpr float kStill = 4.0f; // design pixels
+    const ImGuiIO& io = ImGui::GetIO();
+    const float still = ui.px(kStill);
+    const bool clicked = ImGui::IsItemDeactivated() &&
+                         ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !io.KeyAlt &&
+                         io.MouseDragMaxDistanceSqr[ImGuiMouseButton_Left] < still * still;
+    if (!clicked || !input.facts.pick || !input.document.scene)
+        return;
+    const glm::dvec2 point((io.MousePos.x - area.position.x) / area.size.x,
+                           (io.MousePos.y - area.position.y) / area.size.y);
+    const bool adds = io.KeyShift || io.KeyCtrl;
+    const bool twice = io.MouseClickedLastCount[ImGuiMouseButton_Left] > 1;
+    std::optional<SelectedItem> item = input.facts.pick(lane, point);
+    if (!item) {
+        if (!adds)
+            ui.push(Select{});
+        return;
+    }
+    if (twice)
+        item->instance = kNone;
+    ui.push(Select{{*item}, adds && !twice ? Select::Mode::Toggle : Select::Mode::Replace});
+}
+
 void laneGestures(const Ui& ui,
                   const PanelInput& input,
                   const WindowState& state,
                   const Area& area) {
-    const bool lights = state.drag_moves_light && ImGui::IsMouseDown(ImGuiMouseButton_Left);
+    const bool lights = state.drag_moves_light && !ImGui::GetIO().KeyAlt &&
+                        ImGui::IsMouseDown(ImGuiMouseButton_Left);
     if (const auto lit = lights ? lightGesture(input.document.view) : std::nullopt)
         ui.push(SetView{*lit});
-    else if (const auto camera = cameraGesture(
-                 input.document.camera, std::min(area.size.x, area.size.y), kVerticalFovRad);
+    else if (const auto camera = cameraGesture(input.document.camera,
+                                               {std::min(area.size.x, area.size.y),
+                                                kVerticalFovRad,
+                                                input.document.view.navigation});
              camera && !lights)
         ui.push(SetCamera{*camera});
 }

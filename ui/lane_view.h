@@ -17,10 +17,15 @@ void laneGestures(const Ui& ui,
                   const PanelInput& input,
                   const WindowState& state,
                   const Area& area);
+// A click into the last item, a picture of the lane: selects the instance that is there. Shift or
+// Ctrl adds it or takes it away; a double click selects all instances of its submesh.
+void pickGesture(const Ui& ui, const PanelInput& input, LaneId lane, const Area& area);
 // Asks for the lane's picture in the size of the area.
 void requestPicture(const PanelInput& input, WindowState& state, LaneId lane, const Area& area);
 
 // Two lanes in one place: left of a divider the one, right of it the other.
 void drawSplitView(const Ui& ui, const PanelInput& input, WindowState& state, const Area& area);
+// The same two lanes in turn.
+void drawFlickerView(const Ui& ui, const PanelInput& input, WindowState& state, const Area& area);
 
 } // namespace lodestone::ui

@@ -1,5 +1,6 @@
 #include "scene/generate.h"
 #include "ui/camera_gestures.h"
+#include "ui/display_menu.h"
 #include "ui/lane_presets.h"
 #include "ui/lane_text.h"
 #include "ui/panels.h"
@@ -12,6 +13,16 @@
 namespace lodestone::ui {
 
 namespace {
+
+constexpr std::array<std::string_view, 5> kCompareTitles = {
+    "Grid", "Split", "Flicker", "Heat map", "Difference"};
+constexpr std::array<std::string_view, 5> kCompareTips = {
+    "Every lane beside the others.",
+    "The active lane and the original, with a divider to drag between them.",
+    "The active lane and the original in turn at one place, twice a second.",
+    "Every vertex in the colour of its distance to the original's surface.",
+    "Every pixel in the colour of its difference (FLIP) from the original's picture; the lane's "
+    "number is the mean."};
 
 void fileMenu(const Ui& ui, const PanelInput& input, WindowState& state) {
     const Document& document = input.document;
@@ -51,30 +62,16 @@ void editMenu(const Ui& ui, const Document& document) {
 }
 
 void viewMenu(const Ui& ui, const Document& document, WindowState& state) {
-    constexpr std::array kShadings = {ShadingMode::Lit,
-                                      ShadingMode::Clay,
-                                      ShadingMode::Flat,
-                                      ShadingMode::Normals,
-                                      ShadingMode::UvChecker,
-                                      ShadingMode::Submesh,
-                                      ShadingMode::Instance};
-    DisplayOptions view = document.view;
-    for (const ShadingMode shading : kShadings)
+    displayItems(ui, document.view);
+    ImGui::Separator();
+    for (std::size_t mode = 0; mode < kCompareTitles.size(); ++mode) {
+        DisplayOptions view = document.view;
+        view.compare = static_cast<CompareMode>(mode);
         if (menuItem(ui,
-                     "Shading: " + std::string(shadingName(shading)),
-                     shading == ShadingMode::Normals ? "N" : nullptr,
-                     view.shading == shading)) {
-            view.shading = shading;
+                     "Compare: " + std::string(kCompareTitles[mode]),
+                     view.compare == CompareMode::Split ? "Space" : nullptr,
+                     view.compare == document.view.compare))
             ui.push(SetView{view});
-        }
-    if (menuItem(ui, "Wireframe", "L", view.wireframe)) {
-        view.wireframe = !view.wireframe;
-        ui.push(SetView{view});
-    }
-    const bool split = view.compare == CompareMode::Split;
-    if (menuItem(ui, "Split", "Space", split)) {
-        view.compare = split ? CompareMode::Grid : CompareMode::Split;
-        ui.push(SetView{view});
     }
     ImGui::Separator();
     if (menuItem(ui, "Frame all", "Home"))
@@ -160,30 +157,43 @@ void menu(Ui& ui, const char* name, Body body) {
     ImGui::EndMenu();
 }
 
-// At the right: what "equal" means for the master slider, and how many views the grid has.
-void drawSwitches(const Ui& ui, const PanelInput& input, WindowState& state) {
-    constexpr std::array<std::string_view, 2> kEqual = {"triangles", "bytes"};
-    constexpr std::array<std::string_view, 2> kEqualTips = {
+// What "equal" means for the master slider.
+void equalSwitch(const Ui& ui, const Document& document) {
+    constexpr std::array<std::string_view, 3> kEqual = {"triangles", "bytes", "pixels"};
+    constexpr std::array<std::string_view, 3> kTips = {
         "The master slider gives every lane the same number of triangles.",
-        "The master slider gives every lane the same exported size."};
+        "The master slider gives every lane the same exported size.",
+        "The master slider gives every lane the same error on screen, in pixels of a view; it "
+        "follows the camera."};
+    const int selected = document.master_px                            ? 2
+                         : document.master.kind == Target::Kind::Bytes ? 1
+                                                                       : 0;
+    const auto chosen = segmented(ui, {"Equal", kEqual, selected, kTips});
+    const Lane* const lane = document.findLane(document.active_lane);
+    if (!chosen || !lane || !lane->status.lod)
+        return;
+    if (*chosen == 2)
+        ui.push(SetMasterPixels{shownPixels(document, *lane)});
+    else
+        ui.push(SetMasterTarget{
+            sameTarget(*lane, *chosen == 1 ? Target::Kind::Bytes : Target::Kind::Ratio)});
+}
+
+// At the right: what is equal, how many views the grid has, how lanes are compared.
+void drawSwitches(const Ui& ui, const PanelInput& input, WindowState& state) {
+    constexpr std::array<std::string_view, 3> kEqualWidths = {"triangles", "bytes", "pixels"};
     constexpr std::array<std::string_view, 6> kCounts = {"1", "2", "3", "4", "6", "9"};
     const Document& document = input.document;
-    const float counts_width = segmentedWidth(ui, kCounts);
-    const float equal_width = segmentedWidth(ui, kEqual);
     const float y = ui.px(4);
-    const float counts_x =
-        static_cast<float>(ImGui::GetIO().DisplaySize.x) - counts_width - ui.px(12);
-    const float equal_x = counts_x - equal_width - ui.px(20);
+    const float gap = ui.px(14);
+    const float modes_x =
+        ImGui::GetIO().DisplaySize.x - segmentedWidth(ui, kCompareTitles) - ui.px(12);
+    const float counts_x = modes_x - segmentedWidth(ui, kCounts) - gap;
+    const float equal_x = counts_x - segmentedWidth(ui, kEqualWidths) - gap;
     drawText(
-        ui, {equal_x - ui.px(10), ui.px(7)}, Align::Right, "equal", {nullptr, color::kSecondary});
+        ui, {equal_x - ui.px(8), ui.px(7)}, Align::Right, "equal", {nullptr, color::kSecondary});
     ImGui::SetCursorScreenPos({equal_x, y});
-    const bool bytes = document.master.kind == Target::Kind::Bytes;
-    if (segmented(ui, {"Equal", kEqual, bytes ? 1 : 0, kEqualTips})) {
-        const Lane* const lane = document.findLane(document.active_lane);
-        const Target::Kind kind = bytes ? Target::Kind::Ratio : Target::Kind::Bytes;
-        if (lane && lane->status.lod)
-            ui.push(SetMasterTarget{sameTarget(*lane, kind)});
-    }
+    equalSwitch(ui, document);
     ImGui::SetCursorScreenPos({counts_x, y});
     const int shown =
         state.cell_count > 0 ? state.cell_count : static_cast<int>(document.lanes.size());
@@ -193,6 +203,13 @@ void drawSwitches(const Ui& ui, const PanelInput& input, WindowState& state) {
             selected = static_cast<int>(at);
     if (const auto chosen = segmented(ui, {"Views", kCounts, selected, {}}))
         state.cell_count = kCounts[static_cast<std::size_t>(*chosen)][0] - '0';
+    ImGui::SetCursorScreenPos({modes_x, y});
+    const auto mode = static_cast<int>(document.view.compare);
+    if (const auto chosen = segmented(ui, {"Compare", kCompareTitles, mode, kCompareTips})) {
+        DisplayOptions view = document.view;
+        view.compare = static_cast<CompareMode>(*chosen);
+        ui.push(SetView{view});
+    }
 }
 
 } // namespace
@@ -232,12 +249,12 @@ void drawMasterStrip(Ui ui, const PanelInput& input, WindowState& state, const A
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
     beginPanel("Master", area.position, area.size, PanelScroll::None);
     const float text_y = area.position.y + (area.size.y - ImGui::GetTextLineHeight()) * 0.5f;
-    const Target& target = input.document.master;
-    const std::string value = formatTarget(target);
+    const std::string value = masterText(input.document);
     const float label_width = ui.px(64);
     const float value_width = ui.px(78);
     const float left = area.position.x + ui.px(12);
-    const float right = area.end().x - ui.px(12);
+    const float middle = area.position.y + area.size.y * 0.5f;
+    const float right = displayButton(ui, input, area.end().x - ui.px(12), middle) - ui.px(16);
     drawText(ui, {left, text_y}, Align::Left, "All lanes", {nullptr, color::kSecondary});
     drawText(ui, {right, text_y}, Align::Right, value, {ui.theme.fonts.semibold});
     ImGui::SetCursorScreenPos(

@@ -31,9 +31,10 @@ void drawMasterStrip(Ui ui, const PanelInput& input, WindowState& state, const A
 void drawLaneGrid(Ui ui, const PanelInput& input, WindowState& state, const Area& area);
 void drawInspector(Ui ui, const PanelInput& input, WindowState& state, const Area& area);
 void drawComparePanel(Ui ui, const PanelInput& input, WindowState& state, const Area& area);
-void drawSizeChart(const Ui& ui,
+void drawLaneChart(const Ui& ui,
                    const PanelInput& input,
                    const WindowState& state,
+                   ChartKind kind,
                    const Area& area);
 void drawStatusBar(Ui ui, const PanelInput& input, WindowState& state, const Area& area);
 void drawToast(Ui ui, const PanelInput& input, WindowState& state, const Area& area);

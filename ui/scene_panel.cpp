@@ -177,6 +177,16 @@ SelectionSummary summarise(const Document& document) {
     return summary;
 }
 
+// "1 of 1 020 instances" where single ones are selected.
+std::string instanceWords(const Document& document, const SelectionSummary& summary) {
+    const auto single = std::ranges::count_if(
+        document.selection, [](const SelectedItem& item) { return item.instance != kNone; });
+    const std::string all = formatCount(summary.instances) + " instances";
+    return single > 0 && static_cast<std::size_t>(single) == document.selection.size()
+               ? formatCount(static_cast<std::uint64_t>(single)) + " of " + all
+               : all;
+}
+
 void importanceSlider(const Ui& ui, const Document& document, const SelectionSummary& summary) {
     const std::uint32_t first = summary.submeshes.front();
     const double importance = first < document.importance.size() ? document.importance[first] : 1.0;
@@ -205,7 +215,7 @@ void drawSelection(const Ui& ui, const PanelInput& input) {
     sectionTitle(ui, "Selection");
     if (summary.submeshes.empty()) {
         ImGui::PushStyleColor(ImGuiCol_Text, color::kSecondary);
-        ImGui::TextWrapped("Click a submesh to weigh it.");
+        ImGui::TextWrapped("Click a submesh, here or in a view.");
         ImGui::PopStyleColor();
         return;
     }
@@ -214,7 +224,7 @@ void drawSelection(const Ui& ui, const PanelInput& input) {
                                  : formatCount(summary.submeshes.size()) + " submeshes";
     const float width = ImGui::GetContentRegionAvail().x;
     const std::string first =
-        fitText(ui, name + " \u00b7 " + formatCount(summary.instances) + " instances", width);
+        fitText(ui, name + " \u00b7 " + instanceWords(document, summary), width);
     ImGui::TextDisabled("%s", first.c_str());
     ImGui::TextDisabled("%s \u2192 %s triangles",
                         formatCount(summary.before).c_str(),

@@ -29,7 +29,9 @@ SizeCurve computeCurve(const LodSource& source,
                              static_cast<double>(std::max<std::uint64_t>(1, original_triangles));
         if (!curve.empty() && ratio <= curve.back().ratio)
             continue; // stuck at a floor
-        curve.push_back({ratio, static_cast<double>(bytes.bytes(source.shapeAt(position)))});
+        curve.push_back({ratio,
+                         static_cast<double>(bytes.bytes(source.shapeAt(position))),
+                         source.errorAt(position)});
     }
     return curve;
 }

@@ -13,6 +13,7 @@ namespace lodestone::ui {
 struct SizePoint {
     double ratio = 0.0; // of the original's triangles
     double size_bytes = 0.0;
+    double error_rel_percent = 0.0; // estimated, of the diagonal
 };
 
 using SizeCurve = std::vector<SizePoint>; // by rising ratio

@@ -80,6 +80,8 @@ void drawSplitView(const Ui& ui, const PanelInput& input, WindowState& state, co
     ImGui::SetItemAllowOverlap();
     named.record("picture");
     laneGestures(named, input, state, picture);
+    const float seen_at = (ImGui::GetIO().MousePos.x - picture.position.x) / picture.size.x;
+    pickGesture(named, input, (seen_at < divider ? pair.left : pair.right)->id, picture);
     divider = drawDivider(named, picture, divider);
     const float half = std::round(area.size.x * 0.5f);
     for (const Lane* const lane : {pair.left, pair.right}) {
@@ -99,6 +101,41 @@ void drawSplitView(const Ui& ui, const PanelInput& input, WindowState& state, co
         ImGui::PopID();
         requestPicture(input, state, lane->id, picture);
     }
+}
+
+void drawFlickerView(const Ui& ui, const PanelInput& input, WindowState& state, const Area& area) {
+    constexpr double kTurnSeconds = 0.5;
+    const Pair pair = splitLanes(input.document);
+    if (!pair.left || !pair.right)
+        return;
+    const double turns = ImGui::GetTime() / kTurnSeconds;
+    const Lane& lane = std::fmod(turns, 2.0) < 1.0 ? *pair.left : *pair.right;
+    state.wakeIn((std::floor(turns) + 1.0 - turns) * kTurnSeconds + 0.002);
+    const float bar = std::round(ui.px(kBarHeight));
+    const Area picture{{area.position.x, area.position.y + bar},
+                       {area.size.x, std::max(1.0f, area.size.y - 2 * bar)}};
+    Ui named = ui;
+    named.panel = "Flicker";
+    drawPart(input, lane, picture, 0.0f, 1.0f);
+    ImGui::SetCursorScreenPos(picture.position);
+    ImGui::InvisibleButton("picture",
+                           picture.size,
+                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
+                               ImGuiButtonFlags_MouseButtonMiddle);
+    ImGui::SetItemAllowOverlap();
+    named.record("picture");
+    ui.log.object("flicker", "flicker", "\"lane\":" + std::to_string(lane.id));
+    laneGestures(named, input, state, picture);
+    pickGesture(named, input, lane.id, picture);
+    const LanePicture* const shown = input.pictureOf(lane.id);
+    drawLaneState(named, state, lane, shown && shown->draft, picture);
+    named.panel = "View " + std::to_string(lane.id);
+    ImGui::PushID(static_cast<int>(lane.id));
+    drawLaneHeader(named, input, state, lane, {area.position, {area.size.x, bar}});
+    drawLaneFooter(named, lane, {{area.position.x, picture.end().y}, {area.size.x, bar}});
+    ImGui::PopID();
+    requestPicture(input, state, pair.left->id, picture);
+    requestPicture(input, state, pair.right->id, picture);
 }
 
 } // namespace lodestone::ui

@@ -15,13 +15,8 @@ constexpr double kSmallestBytes = 1024.0;
 constexpr double kSmallestError = 1e-4; // % of the diagonal
 constexpr double kLargestError = 10.0;
 
-bool isLogarithmic(Target::Kind kind) {
-    return kind == Target::Kind::Bytes || kind == Target::Kind::Error;
-}
-
-double smallest(Target::Kind kind) {
-    return kind == Target::Kind::Bytes ? kSmallestBytes : kSmallestError;
-}
+constexpr double kSmallestPixels = 0.1;
+constexpr double kLargestPixels = 100.0;
 
 double unitFactor(std::string_view unit) {
     if (unit.empty())
@@ -52,16 +47,21 @@ TargetScale targetScale(const Document& document, Target::Kind kind, std::uint64
     case Target::Kind::Triangles:
         return {kind, std::max(1.0, static_cast<double>(document.counts.triangles))};
     case Target::Kind::Bytes:
-        return {kind, std::max(2.0 * kSmallestBytes, static_cast<double>(largest_bytes))};
+        return {kind,
+                std::max(2.0 * kSmallestBytes, static_cast<double>(largest_bytes)),
+                kSmallestBytes};
     case Target::Kind::Error:
-        return {kind, kLargestError};
+        return {kind, kLargestError, kSmallestError};
     }
     return {};
 }
 
+TargetScale pixelScale() {
+    return {Target::Kind::Error, kLargestPixels, kSmallestPixels};
+}
+
 double fractionOf(const TargetScale& scale, double value) {
-    if (isLogarithmic(scale.kind)) {
-        const double low = smallest(scale.kind);
+    if (const double low = scale.smallest; low > 0.0) {
         const double along = std::log(std::max(value, low) / low) / std::log(scale.full / low);
         return std::clamp(along, 0.0, 1.0);
     }
@@ -69,8 +69,7 @@ double fractionOf(const TargetScale& scale, double value) {
 }
 
 double valueAt(const TargetScale& scale, double fraction) {
-    if (isLogarithmic(scale.kind)) {
-        const double low = smallest(scale.kind);
+    if (const double low = scale.smallest; low > 0.0) {
         const double value = low * std::pow(scale.full / low, fraction);
         return scale.kind == Target::Kind::Bytes ? std::round(value) : value;
     }
@@ -78,6 +77,12 @@ double valueAt(const TargetScale& scale, double fraction) {
     if (scale.kind == Target::Kind::Triangles)
         return std::max(1.0, std::round(value));
     return std::max(1e-4, value);
+}
+
+std::string formatPixels(double pixels) {
+    char text[32] = "";
+    std::snprintf(text, sizeof text, "%.*f px", pixels < 9.95 ? 1 : 0, pixels);
+    return text;
 }
 
 std::string formatTarget(const Target& target) {

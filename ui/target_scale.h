@@ -12,6 +12,7 @@ namespace lodestone::ui {
 struct TargetScale {
     Target::Kind kind = Target::Kind::Ratio;
     double full = 1.0; // value of the untouched scene: 1, triangles, bytes; for Error the largest
+    double smallest = 0.0; // > 0: the scale is logarithmic and begins here
 };
 
 // largest_bytes: of any lane at full detail, so that the byte slider reaches it.
@@ -19,8 +20,11 @@ TargetScale targetScale(const Document& document, Target::Kind kind, std::uint64
 
 double fractionOf(const TargetScale& scale, double value); // 0..1
 double valueAt(const TargetScale& scale, double fraction); // inverse, rounded to whole units
-std::string formatTarget(const Target& target);            // 20.0 %, 363,615 tri, 341 KiB
-std::string editableTarget(const Target& target);          // 20, 363615, 341 KiB
+// Errors in pixels of a view: 0.1 to 100, logarithmic.
+TargetScale pixelScale();
+std::string formatPixels(double pixels);          // 1.5 px
+std::string formatTarget(const Target& target);   // 20.0 %, 363,615 tri, 341 KiB
+std::string editableTarget(const Target& target); // 20, 363615, 341 KiB
 // "20", "20 %", "363,615", "1.2M", "341 KiB", "0.5 %". nullopt if it is not a number in range.
 std::optional<double> parseTarget(const TargetScale& scale, std::string_view text);
 

@@ -57,32 +57,71 @@ Target sameTarget(const Lane& lane, Target::Kind kind) {
     return {};
 }
 
+std::string masterText(const Document& document) {
+    return document.master_px ? formatPixels(*document.master_px) : formatTarget(document.master);
+}
+
+double shownPixels(const Document& document, const Lane& lane) {
+    const double one_pixel = errorOfPixels(document, 1.0);
+    const double wanted = one_pixel > 0.0 ? lane.status.numbers.error_estimate / one_pixel : 1.0;
+    const TargetScale scale = pixelScale();
+    return std::clamp(wanted, scale.smallest, scale.full);
+}
+
+namespace {
+
+SliderSpec pixelSpec(double pixels, std::string_view label) {
+    SliderSpec spec;
+    spec.label = label;
+    spec.value = formatPixels(pixels);
+    spec.edit_text = formatPixels(pixels);
+    spec.fraction = fractionOf(pixelScale(), pixels);
+    spec.tooltip = "How far the surface may be off in this view, in pixels. It follows the camera.";
+    return spec;
+}
+
+} // namespace
+
 void laneTargetSlider(const Ui& ui,
                       const PanelInput& input,
                       const WindowState& state,
                       const Lane& lane,
                       float width) {
     const Target& target = lane.settings.target;
-    const TargetScale scale = targetScale(input.document, target.kind, largestBytes(input, state));
-    SliderSpec spec = specOf(scale, target, "Target");
+    const std::optional<double>& pixels = lane.settings.error_px;
+    const TargetScale scale =
+        pixels ? pixelScale()
+               : targetScale(input.document, target.kind, largestBytes(input, state));
+    SliderSpec spec = pixels ? pixelSpec(*pixels, "Target") : specOf(scale, target, "Target");
     spec.colour = packed(lane.settings.colour);
     spec.enabled = lane.settings.algorithm != nullptr;
     if (!spec.enabled)
         spec.fraction = 1.0;
     const SliderEvent event = width > 0 ? sliderTrack(ui, spec, width) : slider(ui, spec);
-    if (const std::optional<double> value = newValue(scale, event))
-        ui.push(SetLaneTarget{lane.id, {target.kind, *value}, event.drag});
+    if (const std::optional<double> value = newValue(scale, event)) {
+        if (pixels)
+            ui.push(SetLanePixels{lane.id, *value, event.drag});
+        else
+            ui.push(SetLaneTarget{lane.id, {target.kind, *value}, event.drag});
+    }
     if (event.released || event.typed)
         ui.push(EndDrag{});
 }
 
 void masterSlider(const Ui& ui, const PanelInput& input, const WindowState& state, float width) {
     const Target& target = input.document.master;
-    const TargetScale scale = targetScale(input.document, target.kind, largestBytes(input, state));
-    const SliderSpec spec = specOf(scale, target, "Master");
+    const std::optional<double>& pixels = input.document.master_px;
+    const TargetScale scale =
+        pixels ? pixelScale()
+               : targetScale(input.document, target.kind, largestBytes(input, state));
+    const SliderSpec spec = pixels ? pixelSpec(*pixels, "Master") : specOf(scale, target, "Master");
     const SliderEvent event = sliderTrack(ui, spec, width);
-    if (const std::optional<double> value = newValue(scale, event))
-        ui.push(SetMasterTarget{{target.kind, *value}, event.drag});
+    if (const std::optional<double> value = newValue(scale, event)) {
+        if (pixels)
+            ui.push(SetMasterPixels{*value, event.drag});
+        else
+            ui.push(SetMasterTarget{{target.kind, *value}, event.drag});
+    }
     if (event.released)
         ui.push(EndDrag{});
 }

@@ -15,6 +15,12 @@ void laneTargetSlider(
 // All lanes: emits SetMasterTarget and EndDrag.
 void masterSlider(const Ui& ui, const PanelInput& input, const WindowState& state, float width);
 
+// The master's value as text.
+std::string masterText(const Document& document);
+
+// The error in pixels at this view that asks for what the lane shows now.
+double shownPixels(const Document& document, const Lane& lane);
+
 // The target that asks for what the lane shows now, in another kind.
 Target sameTarget(const Lane& lane, Target::Kind kind);
 

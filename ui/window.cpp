@@ -10,12 +10,16 @@ namespace {
 void logState(UiLog& log, const WindowState& state, const DisplayOptions& view) {
     if (!log.enabled())
         return;
-    const std::string members = "\"dialog\":" + std::to_string(static_cast<int>(state.dialog)) +
-                                ",\"welcome\":" + (state.welcome ? "true" : "false") +
-                                ",\"panels_hidden\":" + (state.panels_hidden ? "true" : "false") +
-                                ",\"views\":" + std::to_string(state.views.size()) +
-                                ",\"wireframe\":" + (view.wireframe ? "true" : "false") +
-                                ",\"shading\":\"" + std::string(shadingName(view.shading)) + "\"";
+    const std::string members =
+        "\"dialog\":" + std::to_string(static_cast<int>(state.dialog)) +
+        ",\"welcome\":" + (state.welcome ? "true" : "false") +
+        ",\"panels_hidden\":" + (state.panels_hidden ? "true" : "false") +
+        ",\"views\":" + std::to_string(state.views.size()) +
+        ",\"wireframe\":" + (view.wireframe ? "true" : "false") + ",\"compare\":\"" +
+        std::string(compareName(view.compare)) + "\",\"grid\":" + (view.grid ? "true" : "false") +
+        ",\"shininess\":" + std::to_string(view.shininess) +
+        ",\"error_chart\":" + (state.chart == ChartKind::Error ? "true" : "false") +
+        ",\"shading\":\"" + std::string(shadingName(view.shading)) + "\"";
     log.object("window", "state", members);
 }
 

@@ -6,6 +6,7 @@
 #include "ui/ui.h"
 
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct WindowFacts {
     int height_px = 0;
     float density = 1.0f;    // framebuffer pixels per window unit
     std::uint64_t frame = 0; // drawn so far
+    // What is seen at a point of a lane's view: 0..1 from the left and from the top.
+    std::function<std::optional<SelectedItem>(LaneId, const glm::dvec2&)> pick;
 };
 
 struct PanelInput {
@@ -69,6 +72,9 @@ struct SubmeshOrder {
     std::vector<std::uint32_t> submeshes;
 };
 
+// What a chart shows over the triangles.
+enum class ChartKind : std::uint8_t { Size, Error };
+
 struct WindowState {
     Dialog dialog = Dialog::None;
     bool dialog_opens = false; // in the next frame
@@ -77,6 +83,8 @@ struct WindowState {
     bool quit = false;             // answered: really
     bool drag_moves_light = false; // a left drag in a view
     Animation animation;
+    ChartKind chart = ChartKind::Size;
+    std::string sheet_filter; // of the list of keys
     SubmeshOrder submesh_order;
     bool full_screen_toggled = false; // wanted; whoever owns the window clears it
     int cell_count = 0;               // views in the grid; 0: one for each lane

@@ -425,7 +425,8 @@ def test_twice_as_dense_nothing_is_cut_off(folder):
             assert x >= 0 and y >= 0 and x + w <= 2561 and y + h <= 1441, f"{name}: {entry['rect']}"
 
 
-def main():
+def main(tests):
+    """Runs the functions test_* among `tests`."""
     global BINARY
     BINARY = str(pathlib.Path(sys.argv[1]).resolve())
     for tool in ("xdotool", "import", "convert"):
@@ -434,7 +435,7 @@ def main():
             return 1 if os.environ.get("CI") == "true" else SKIPPED
     wanted = sys.argv[2:]
     failures = 0
-    for name, test in sorted(globals().items()):
+    for name, test in sorted(tests.items()):
         if not name.startswith("test_") or (wanted and name not in wanted):
             continue
         with tempfile.TemporaryDirectory() as folder:
@@ -451,4 +452,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(globals()))

@@ -11,19 +11,38 @@ namespace lodestone::ui {
 
 namespace {
 
-// Ratio along x, the logarithm of the size along y.
+constexpr double kSmallest = 1e-6;    // of a value that a logarithm is taken of
+constexpr double kErrorDecades = 4.0; // errors below the largest that are told apart
+
+// Ratio along x, the logarithm of a size or an error along y.
 struct Axes {
+    ChartKind kind = ChartKind::Size;
     Area plot;
-    double low = 0.0;  // log10 of bytes at the bottom
+    double low = 0.0;  // log10 of the value at the bottom
     double high = 1.0; // at the top
 
     float x(double ratio) const {
         return plot.position.x + plot.size.x * static_cast<float>(std::clamp(ratio, 0.0, 1.0));
     }
 
-    float y(double size_bytes) const {
-        const double along = (std::log10(std::max(1.0, size_bytes)) - low) / (high - low);
+    float y(double value) const {
+        const double along = (std::log10(std::max(kSmallest, value)) - low) / (high - low);
         return plot.end().y - plot.size.y * static_cast<float>(std::clamp(along, 0.0, 1.0));
+    }
+
+    double valueOf(const SizePoint& point) const {
+        return kind == ChartKind::Size ? point.size_bytes : point.error_rel_percent;
+    }
+
+    // What the lane shows now.
+    double valueOf(const LaneNumbers& numbers) const {
+        return kind == ChartKind::Size ? static_cast<double>(numbers.predicted_bytes)
+                                       : numbers.error_estimate;
+    }
+
+    std::string text(double value) const {
+        return kind == ChartKind::Size ? formatBytes(static_cast<std::uint64_t>(value))
+                                       : formatError(value) + " %";
     }
 };
 
@@ -38,47 +57,65 @@ double originalBytes(const Document& document) {
 bool fitAxes(const PanelInput& input, const WindowState& state, Axes& axes) {
     double smallest = std::numeric_limits<double>::max();
     double largest = 0.0;
-    for (const Lane& lane : input.document.lanes)
+    for (const Lane& lane : input.document.lanes) {
         for (const SizePoint& point : state.curves.of(lane.id)) {
-            smallest = std::min(smallest, point.size_bytes);
-            largest = std::max(largest, point.size_bytes);
+            const double value = axes.valueOf(point);
+            largest = std::max(largest, value);
+            if (value > kSmallest)
+                smallest = std::min(smallest, value);
         }
+        if (axes.kind == ChartKind::Error && lane.status.distance)
+            largest = std::max(largest, lane.status.distance->hausdorff);
+    }
     if (largest <= 0.0)
         return false;
-    largest = std::max(largest, originalBytes(input.document));
-    axes.low = std::log10(std::max(1.0, smallest)) - 0.1;
+    if (axes.kind == ChartKind::Size)
+        largest = std::max(largest, originalBytes(input.document));
+    else
+        smallest = std::max(smallest, largest * std::pow(10.0, -kErrorDecades));
+    axes.low = std::log10(std::max(kSmallest, smallest)) - 0.1;
     axes.high = std::max(axes.low + 0.5, std::log10(largest) + 0.1);
     return true;
 }
 
-// A line for each power of ten that the axis spans, at binary-friendly sizes.
+void gridLine(const Ui& ui, const Axes& axes, double value, float& last_y) {
+    const double place = std::log10(value);
+    const float y = axes.y(value);
+    if (place < axes.low || place > axes.high || last_y - y < ui.px(14))
+        return;
+    last_y = y;
+    horizontalHairline(ui, axes.plot.position.x, axes.plot.end().x, y);
+    drawText(ui,
+             {axes.plot.position.x - ui.px(6), y - ui.px(7)},
+             Align::Right,
+             axes.text(value),
+             {ui.theme.fonts.small, color::kSecondary});
+}
+
+// A line for each power of ten that the axis spans, of sizes at binary-friendly ones.
 void drawGrid(const Ui& ui, const Axes& axes) {
     const TextStyle style{ui.theme.fonts.small, color::kSecondary};
     constexpr double kKib = 1024.0;
     float last_y = std::numeric_limits<float>::max();
-    for (double unit = 1.0; unit < 1e15; unit *= kKib)
-        for (double step = unit; step < unit * 999.0; step *= 10.0) {
-            const double place = std::log10(step);
-            const float y = axes.y(step);
-            if (place < axes.low || place > axes.high || last_y - y < ui.px(14))
-                continue;
-            last_y = y;
-            horizontalHairline(ui, axes.plot.position.x, axes.plot.end().x, y);
-            drawText(ui,
-                     {axes.plot.position.x - ui.px(6), y - ui.px(7)},
-                     Align::Right,
-                     formatBytes(static_cast<std::uint64_t>(step)),
-                     style);
-        }
+    if (axes.kind == ChartKind::Size)
+        for (double unit = 1.0; unit < 1e15; unit *= kKib)
+            for (double step = unit; step < unit * 999.0; step *= 10.0)
+                gridLine(ui, axes, step, last_y);
+    else
+        for (int decade = -6; decade <= 3; ++decade)
+            gridLine(ui, axes, std::pow(10.0, decade), last_y);
     const float below = axes.plot.end().y + ui.px(4);
     drawText(ui, {axes.plot.position.x, below}, Align::Left, "0", style);
     drawText(ui, {axes.plot.end().x, below}, Align::Right, "triangles 100 %", style);
 }
 
-void drawOriginal(const Ui& ui, const Axes& axes, double size_bytes) {
-    if (size_bytes <= 0.0)
+// The original's size; its error is none: the lower edge.
+void drawOriginal(const Ui& ui, const Axes& axes, const Document& document) {
+    const bool size = axes.kind == ChartKind::Size;
+    const double value = size ? originalBytes(document) : 0.0;
+    if (size && value <= 0.0)
         return;
-    const float y = std::round(axes.y(size_bytes)) + 0.5f;
+    const float y = std::round(axes.y(value)) + 0.5f;
     const float dash = ui.px(4);
     for (float x = axes.plot.position.x; x < axes.plot.end().x; x += 2 * dash)
         ImGui::GetWindowDrawList()->AddLine(
@@ -88,34 +125,37 @@ void drawOriginal(const Ui& ui, const Axes& axes, double size_bytes) {
 void drawCurve(const Ui& ui, const Axes& axes, const Lane& lane, const SizeCurve& curve) {
     std::vector<ImVec2> points;
     for (const SizePoint& point : curve)
-        points.emplace_back(axes.x(point.ratio), axes.y(point.size_bytes));
+        points.emplace_back(axes.x(point.ratio), axes.y(axes.valueOf(point)));
     const ImU32 colour = packed(lane.settings.colour);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddPolyline(points.data(), static_cast<int>(points.size()), colour, 0, ui.px(1.6f));
     if (lane.status.lod) {
         const LaneNumbers& numbers = lane.status.numbers;
         list.AddCircleFilled(
-            {axes.x(numbers.ratio), axes.y(static_cast<double>(numbers.predicted_bytes))},
-            ui.px(3.5f),
-            colour,
-            20);
+            {axes.x(numbers.ratio), axes.y(axes.valueOf(numbers))}, ui.px(3.5f), colour, 20);
+        if (axes.kind == ChartKind::Error && lane.status.distance && lane.settings.algorithm)
+            list.AddCircle({axes.x(numbers.ratio), axes.y(lane.status.distance->hausdorff)},
+                           ui.px(4.5f),
+                           colour,
+                           20,
+                           ui.px(1.5f));
     }
 }
 
-// Size on a curve at a ratio, between its points; negative outside.
-double sizeAt(const SizeCurve& curve, double ratio) {
+// Value of a curve at a ratio, between its points; negative outside.
+double valueAt(const Axes& axes, const SizeCurve& curve, double ratio) {
     for (std::size_t at = 1; at < curve.size(); ++at) {
         const SizePoint& a = curve[at - 1];
         const SizePoint& b = curve[at];
         if (ratio < a.ratio || ratio > b.ratio)
             continue;
-        return a.size_bytes +
-               (b.size_bytes - a.size_bytes) * (ratio - a.ratio) / (b.ratio - a.ratio);
+        return axes.valueOf(a) +
+               (axes.valueOf(b) - axes.valueOf(a)) * (ratio - a.ratio) / (b.ratio - a.ratio);
     }
     return -1.0;
 }
 
-// Under the mouse: a line and what each lane would weigh there.
+// Under the mouse: a line and what each lane would have there.
 void drawReading(const Ui& ui,
                  const PanelInput& input,
                  const WindowState& state,
@@ -128,44 +168,46 @@ void drawReading(const Ui& ui,
     ImGui::BeginTooltip();
     ImGui::TextDisabled("%s of the triangles", formatRatio(ratio).c_str());
     for (const Lane& lane : input.document.lanes) {
-        const double size_bytes = sizeAt(state.curves.of(lane.id), ratio);
-        if (size_bytes < 0.0)
+        const double value = valueAt(axes, state.curves.of(lane.id), ratio);
+        if (value < 0.0)
             continue;
         const ImVec2 at = ImGui::GetCursorScreenPos();
         ImGui::GetWindowDrawList()->AddCircleFilled(
             at + ImVec2(ui.px(4), ui.px(8)), ui.px(4), packed(lane.settings.colour), 20);
         const std::string name(laneName(lane.settings));
         ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ui.px(16));
-        ImGui::Text(
-            "%s  %s", name.c_str(), formatBytes(static_cast<std::uint64_t>(size_bytes)).c_str());
+        ImGui::Text("%s  %s", name.c_str(), axes.text(value).c_str());
     }
     ImGui::EndTooltip();
 }
 
 } // namespace
 
-void drawSizeChart(const Ui& ui,
+void drawLaneChart(const Ui& ui,
                    const PanelInput& input,
                    const WindowState& state,
+                   ChartKind kind,
                    const Area& area) {
     const float labels = ui.px(56);
+    const bool size = kind == ChartKind::Size;
     Axes axes;
+    axes.kind = kind;
     axes.plot = {{area.position.x + labels, area.position.y + ui.px(18)},
                  {std::max(1.0f, area.size.x - labels), std::max(1.0f, area.size.y - ui.px(36))}};
     drawText(ui,
              {axes.plot.position.x, area.position.y},
              Align::Left,
-             "projected size, log",
+             size ? "projected size, log" : "estimated error, log",
              {ui.theme.fonts.small, color::kSecondary});
     if (!fitAxes(input, state, axes))
         return;
     drawGrid(ui, axes);
-    drawOriginal(ui, axes, originalBytes(input.document));
+    drawOriginal(ui, axes, input.document);
     for (const Lane& lane : input.document.lanes)
         drawCurve(ui, axes, lane, state.curves.of(lane.id));
     ImGui::SetCursorScreenPos(axes.plot.position);
-    ImGui::InvisibleButton("chart", axes.plot.size);
-    ui.record("chart");
+    ImGui::InvisibleButton(size ? "chart" : "error chart", axes.plot.size);
+    ui.record(size ? "chart" : "error chart");
     if (ImGui::IsItemHovered())
         drawReading(ui, input, state, axes);
 }
