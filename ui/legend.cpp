@@ -25,19 +25,28 @@ struct Scale {
     std::string low;
     std::string high;
     std::string unit;
+    std::string short_unit; // where there is no room for the other
 };
 
-void drawScale(const Ui& ui, const Scale& scale, ColorMap map, const Area& area) {
+// At the lower edge, in the middle.
+void drawScale(const Ui& ui, Scale scale, ColorMap map, const Area& area) {
     ImFont* const font = ui.theme.fonts.small;
-    const float bar = ui.px(96);
     const float gap = ui.px(6);
-    const float words = textWidth(ui, scale.low, font) + textWidth(ui, scale.high, font) +
-                        textWidth(ui, scale.unit, font) + 3 * gap;
-    const float width = bar + words + 2 * gap;
-    if (width > area.size.x * 0.62f)
+    const auto words = [&] {
+        return textWidth(ui, scale.low, font) + textWidth(ui, scale.high, font) +
+               textWidth(ui, scale.unit, font) + 4 * gap;
+    };
+    const float room = area.size.x - ui.px(16);
+    float bar = ui.px(96);
+    if (bar + words() > room)
+        scale.unit = scale.short_unit;
+    bar = std::min(bar, room - words());
+    if (bar < ui.px(32))
         return;
+    const float width = bar + words();
     const float height = ui.px(20);
-    const ImVec2 min{area.end().x - width - ui.px(8), area.position.y + ui.px(6)};
+    const ImVec2 min{area.position.x + (area.size.x - width) * 0.5f,
+                     area.end().y - height - ui.px(8)};
     plate(ui, min, min + ImVec2(width, height));
     const float text_y = min.y + (height - font->FontSize) * 0.5f;
     float x = min.x + gap;
@@ -84,14 +93,15 @@ void drawLegend(const Ui& ui, const Document& document, const Lane& lane, const 
         drawScale(ui,
                   {"0",
                    shortNumber(full) + " %",
-                   "of the diagonal \u00b7 " + shortNumber(world) + " units"},
+                   "of the diagonal \u00b7 " + shortNumber(world) + " units",
+                   "of diag."},
                   map,
                   area);
         if (lane.settings.algorithm)
             drawNumber(ui, "99.5 % \u2264 " + formatError(lane.status.error_map.peak) + " %", area);
     }
     if (document.view.compare == CompareMode::Difference && lane.settings.algorithm) {
-        drawScale(ui, {"same", "1", "FLIP"}, map, area);
+        drawScale(ui, {"same", "1", "FLIP, image difference", "FLIP"}, map, area);
         if (lane.status.flip)
             drawNumber(ui, "FLIP " + shortNumber(*lane.status.flip), area);
     }

@@ -4,8 +4,8 @@
 
 namespace lodestone::ui {
 
-// In the modes that show numbers as colours, at the upper edge of a picture: the lane's number at
-// the left, where there is room the scale with its units at the right. Else nothing.
+// In the modes that show numbers as colours: the lane's number at the upper left of a picture, the
+// scale with its units at its lower edge. Else nothing.
 void drawLegend(const Ui& ui, const Document& document, const Lane& lane, const Area& area);
 
 } // namespace lodestone::ui

@@ -20,7 +20,7 @@ LanePictures::LanePictures(const GlContext& context, const Renderer& renderer)
 std::vector<ViewSet::Wanted> LanePictures::wantedPictures(const Document& document,
                                                           std::span<const ui::ViewRequest> views) {
     const bool heat = document.view.compare == CompareMode::HeatMap;
-    const bool moving = document.view.compare != CompareMode::Difference;
+    const bool differences = document.view.compare == CompareMode::Difference;
     const Clock::time_point now = Clock::now();
     std::vector<Highlight> highlighted;
     for (const SelectedItem& item : document.selection)
@@ -31,14 +31,16 @@ std::vector<ViewSet::Wanted> LanePictures::wantedPictures(const Document& docume
         if (!lane)
             continue;
         const LaneStatus& status = lane->status;
-        const bool drafted = moving && now < rests_at_[lane->id];
+        // Pictures that are compared have one size: cells of a grid differ by a pixel.
+        const ui::ViewRequest& sized = differences ? views.front() : view;
+        const bool drafted = !differences && now < rests_at_[lane->id];
         wanted.push_back({view.lane,
                           status.scene,
                           heat && status.error_map.lod ? status.error_map.lod : status.lod,
                           drafted ? drafts_.draftOf(document, *lane) : nullptr,
-                          {view.width_px, view.height_px},
+                          {sized.width_px, sized.height_px},
                           {}});
-        if (status.scene == document.scene && document.view.compare != CompareMode::Difference)
+        if (status.scene == document.scene && !differences)
             wanted.back().highlighted = highlighted;
     }
     return wanted;

@@ -183,6 +183,8 @@ TEST_F(LaneWorkerTest, TheEndOfADragStopsABuildForAnEarlierPlace) {
     applyCommand(document, EndDrag{});
     frame();
     waitForStart(3);
+    while (fixtures::fakeBuilds().stopped < 1)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
     fixtures::fakeBuilds().hold = false;
     settle();
     EXPECT_EQ(fixtures::fakeBuilds().stopped, 1);

@@ -86,7 +86,7 @@ TEST_F(SlicesTest, ADraftIsShownUntilItIsNoLongerWanted) {
     for (LodSubmesh& submesh : few.submeshes)
         submesh.kept_instances = 1;
     const auto draft = std::make_shared<const Lod>(std::move(few));
-    std::vector<ViewSet::Wanted> wanted{{1, scene_, full, draft, kSize}};
+    std::vector<ViewSet::Wanted> wanted{{1, scene_, full, draft, kSize, {}}};
     auto drawn = views.draw(wanted, camera_, {}, 1e9);
     while (drawn && drawn->front().on_its_way)
         drawn = views.draw(wanted, camera_, {}, 1e9);

@@ -58,7 +58,7 @@ protected:
 
 TEST_F(ViewSetTest, NoCallPacksOrCopiesMuchWhileALargeSceneArrives) {
     ViewSet views(*renderer_);
-    const std::vector<ViewSet::Wanted> wanted{{1, flat_, full_, nullptr, kSize}};
+    const std::vector<ViewSet::Wanted> wanted{{1, flat_, full_, nullptr, kSize, {}}};
     const auto drawn = arrive(views, wanted);
     ASSERT_TRUE(drawn) << drawn.error().message;
     EXPECT_TRUE(drawn->front().drew && !drawn->front().stale);
@@ -70,7 +70,7 @@ TEST_F(ViewSetTest, NoCallPacksOrCopiesMuchWhileALargeSceneArrives) {
 
 TEST_F(ViewSetTest, TheLastPictureStaysWhileALargeLodArrives) {
     ViewSet views(*renderer_);
-    std::vector<ViewSet::Wanted> wanted{{1, flat_, full_, nullptr, kSize}};
+    std::vector<ViewSet::Wanted> wanted{{1, flat_, full_, nullptr, kSize, {}}};
     ASSERT_TRUE(arrive(views, wanted));
     Lod other = *full_;
     for (LodSubmesh& submesh : other.submeshes)
@@ -87,7 +87,7 @@ TEST_F(ViewSetTest, TheLastPictureStaysWhileALargeLodArrives) {
 
 TEST_F(ViewSetTest, ALaneThatGoesWhileItsSceneArrivesIsForgotten) {
     ViewSet views(*renderer_);
-    const std::vector<ViewSet::Wanted> wanted{{1, flat_, full_, nullptr, kSize}};
+    const std::vector<ViewSet::Wanted> wanted{{1, flat_, full_, nullptr, kSize, {}}};
     ASSERT_TRUE(views.draw(wanted, camera_, {}, 1e9)->front().on_its_way);
     EXPECT_TRUE(views.draw({}, camera_, {}, 1e9)->empty());
     const auto again = arrive(views, wanted);
