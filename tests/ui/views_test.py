@@ -158,13 +158,10 @@ def test_every_shading_and_background_is_another_picture(folder):
             pictures.append(window.picture(rect))
         for mode, before, after in zip(list(modes)[1:], pictures, pictures[1:]):
             assert differing_share(before, after) > 0.01, mode
-        for backdrop in ("Light", "Grey", "Gradient"):
-            choose(window, backdrop, "Background")
-            window.move(*window.center("Master/Master"))
-            window.wait_still()
-            after = window.picture(rect)
-            assert differing_share(pictures[-1], after) > 0.2, backdrop
-            pictures.append(after)
+        choose(window, "Light", "Background")
+        window.move(*window.center("Master/Master"))
+        window.wait_still()
+        assert differing_share(pictures[-1], window.picture(rect)) > 0.2, "the same background"
 
 
 def test_g_shows_the_floor_and_m_makes_it_shine(folder):

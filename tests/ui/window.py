@@ -117,6 +117,8 @@ class Window:
 
     def wait_still(self):
         """Until every picture is final: no draft, nothing left to draw."""
+        self.window_id()
+        self.wait_frames(2)  # what was just asked for has been seen by a whole frame
         self.wait("final pictures", lambda: self.get("pictures", "pictures") and
                   self.get("pictures", "pictures")["final"])
 
