@@ -115,7 +115,9 @@ float displayButton(const Ui& ui, const PanelInput& input, float right, float mi
                            color::kSecondary);
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(10), ui.px(7)});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(10), ui.px(8)});
-    if (ImGui::BeginPopup("display menu")) {
+    const bool open = ImGui::BeginPopup("display menu");
+    ui.log.object("menu", "display", open ? "\"open\":true" : "\"open\":false");
+    if (open) {
         Ui named = ui;
         named.panel = "Display";
         displayItems(named, input.document.view);

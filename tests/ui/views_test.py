@@ -35,10 +35,14 @@ def coloured_pixel(ppm):
 
 def choose(window, item, *submenus):
     """From the menu that the display button opens."""
-    window.click("Master/display")
+    def is_open():
+        return window.get("menu", "display")["open"]
+    while not is_open():
+        window.click("Master/display")
     for name in submenus:
         window.click(f"Display/{name}")
     window.click(f"Display/{item}")
+    window.wait("a choice", lambda: not is_open())
 
 
 def compare(window, mode):
