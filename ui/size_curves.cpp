@@ -39,9 +39,7 @@ SizeCurve computeCurve(const LodSource& source,
 } // namespace
 
 bool SizeCurves::Key::matches(const Key& other) const {
-    return lane == other.lane && source == other.source &&
-           options.instancing == other.options.instancing &&
-           options.container == other.options.container;
+    return lane == other.lane && source == other.source && options == other.options;
 }
 
 void SizeCurves::start(Key key, std::uint64_t original_triangles) {
