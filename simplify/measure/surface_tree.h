@@ -14,11 +14,11 @@ namespace lodestone {
 // the placed mesh with a sphere that covers the original one.
 struct SurfaceTree {
     struct Release {
-        void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+        void operator()(RTCDevice held) const { rtcReleaseDevice(held); }
 
-        void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+        void operator()(RTCScene held) const { rtcReleaseScene(held); }
 
-        void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
+        void operator()(RTCGeometry held) const { rtcReleaseGeometry(held); }
     };
 
     using DeviceHandle = std::unique_ptr<RTCDeviceTy, Release>;
