@@ -175,7 +175,7 @@ private:
         draco::GeometryAttribute format;
         format.Init(attributeType(semantic),
                     nullptr,
-                    static_cast<std::int8_t>(componentsOf(accessor)),
+                    static_cast<std::uint8_t>(componentsOf(accessor)),
                     dataType(accessor["componentType"]),
                     accessor.value("normalized", false),
                     static_cast<std::int64_t>(size),
@@ -291,7 +291,7 @@ private:
         views_.push_back(packed.bytes);
     }
 
-    struct View {
+    struct View { // NOLINT(bugprone-exception-escape): json moves without throwing
         json entry;
         std::vector<std::byte> bytes;
     };

@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <meshoptimizer.h>
+#include <tuple>
 
 namespace lodestone {
 
@@ -37,7 +38,9 @@ struct BinKey {
     Filter filter = Filter::None;
     std::size_t stride = 0;
 
-    auto operator<=>(const BinKey&) const = default;
+    bool operator<(const BinKey& other) const {
+        return std::tie(kind, filter, stride) < std::tie(other.kind, other.filter, other.stride);
+    }
 };
 
 // Numbers as 24-bit multiples of a power of two, the exponent in the highest byte.

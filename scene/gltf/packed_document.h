@@ -8,7 +8,7 @@
 
 namespace lodestone {
 
-struct PackedDocument {
+struct PackedDocument { // NOLINT(bugprone-exception-escape): json moves without throwing
     nlohmann::json json;
     std::vector<std::byte> binary;
     std::uint32_t first_view = 0;
