@@ -3,6 +3,7 @@
 #include "simplify/ias/ias.h"
 #include "simplify/pointcloud/pointcloud.h"
 #include "simplify/quadric/quadric.h"
+#include "simplify/wild/wild.h"
 
 #include <algorithm>
 #include <array>
@@ -15,6 +16,7 @@ std::span<const Algorithm> algorithms() {
     static const std::array kTable{quadricAlgorithm(),
                                    quadricSubmeshAlgorithm(),
                                    iasAlgorithm(),
+                                   wildAlgorithm(),
                                    vertexTriplexAlgorithm(),
                                    faceAngleAlgorithm(),
                                    intervertexDistanceAlgorithm(),

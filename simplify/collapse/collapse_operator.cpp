@@ -163,8 +163,19 @@ bool ComponentMesh::tryCollapse(std::uint32_t a,
         merged = sum(merged, mergeWedgeQuadrics(a, b, target));
         shapes_[a] = shape = add_up(shapes_[a], shapes_[b]);
     }
-    log_.cost.push_back(merged.c);
-    log_.error2.push_back(shape.weight > 0.0f ? shape.c / shape.weight : 0.0f);
+    merge(a, b, target, merged, {merged.c, shape.weight > 0.0f ? shape.c / shape.weight : 0.0f});
+    return true;
+}
+
+void ComponentMesh::merge(std::uint32_t a,
+                          std::uint32_t b,
+                          Float3 target,
+                          const Quadric& merged,
+                          const StepError& error) {
+    const Float3 half = (points_[b].position - points_[a].position) * 0.5f;
+    const Float3 at = target - (points_[a].position + half);
+    log_.cost.push_back(error.cost);
+    log_.error2.push_back(error.error2);
     metrics_[a].quadric = merged;
     metrics_[a].boundary |= metrics_[b].boundary;
     points_[a].position = target;
@@ -178,7 +189,6 @@ bool ComponentMesh::tryCollapse(std::uint32_t a,
         mergeSingleWedges(a, b, t);
     else
         mergeWedges(a, t);
-    return true;
 }
 
 void ComponentMesh::dropReference(std::uint32_t v, std::uint32_t face) {

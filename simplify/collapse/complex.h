@@ -21,6 +21,10 @@ struct Complex {
     // Connected components (sharing a welded vertex), by rising first face; faces in order.
     std::vector<std::uint32_t> component_begin; // [components + 1] into component_faces
     std::vector<std::uint32_t> component_faces; // [faces]
+    // Pairs of vertices that may collapse though no face joins them: both ends in one component,
+    // by component. Empty: none.
+    std::vector<std::array<std::uint32_t, 2>> virtual_edges;
+    std::vector<std::uint32_t> virtual_begin; // [components + 1] or empty
     std::uint32_t dropped_faces = 0;            // degenerate after welding, or exact doubles
 
     std::size_t componentCount() const { return component_begin.size() - 1; }

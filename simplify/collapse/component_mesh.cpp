@@ -136,7 +136,8 @@ void ComponentMesh::buildWedges() {
     wedge_refs_.clear();
     wedge_counts_.clear();
     gatherValues();
-    if (wedges == points_.size()) { // one each, and numbered alike: both by first use
+    // One each, and numbered alike: both by first use. Virtual edges may join two on one vertex.
+    if (wedges == points_.size() && complex_.virtual_edges.empty()) {
         face_wedges_.clear();
         vertex_ids_.resize(wedges);
         std::iota(vertex_ids_.begin(), vertex_ids_.end(), 0u);

@@ -9,6 +9,7 @@
 #include "simplify/collapse/wedge_quadric.h"
 
 #include <atomic>
+#include <memory>
 
 namespace lodestone {
 
@@ -20,6 +21,8 @@ struct AttributeWeights {
     double motion = 1.0;   // 1: off in a morph target or a joint's motion counts as off at rest
 };
 
+class CollapseMethod;
+
 struct CollapseOptions {
     double boundary_weight = 1.0;    // x the squared edge length, >= 0
     bool boundary_by_length = false; // paper-literal: weight by length instead of squared length
@@ -30,6 +33,7 @@ struct CollapseOptions {
     // Components with more faces are picked in near-greedy passes down to the second number.
     std::uint32_t near_greedy_above = 24'000;
     std::uint32_t exact_below = 6'000;
+    std::shared_ptr<const CollapseMethod> method; // null: each component's edges, greedily
 };
 
 // What happened to one component, in local ids; step numbers start at 1.
@@ -128,7 +132,7 @@ public:
     CollapseLog takeLog();
     double costScale() const; // x a logged cost: cost in the submesh's own units, unscaled weights
 
-private:
+protected: // what another metric on the same mesh builds on
     using Corners = std::array<std::uint32_t, 3>;
 
     // Vertices by what is read together: checks look at many points, costing at few metrics.
@@ -203,6 +207,19 @@ private:
     bool staysUpright(Float3 to) const;
     bool hasFace(std::span<const RingFace> ring, std::uint32_t x, std::uint32_t y) const;
 
+    // Error of a collapse as it is logged.
+    struct StepError {
+        float cost = 0.0f;
+        float error2 = 0.0f;
+    };
+
+    // Collapses b into a at target and logs the step. The rings are gathered; dying_ may also hold
+    // faces around b alone, which are then not in ring_b_.
+    void merge(std::uint32_t a,
+               std::uint32_t b,
+               Float3 target,
+               const Quadric& merged,
+               const StepError& error);
     void mergeFaces(std::uint32_t a, std::uint32_t b);
     void killFace(std::uint32_t face);
     void dropReference(std::uint32_t v, std::uint32_t face);

@@ -238,6 +238,15 @@ void InstanceWeights::border(const glm::dvec3& edge,
     }
 }
 
+glm::dmat3 InstanceWeights::area() const {
+    if (groups_.empty())
+        return glm::dmat3(1.0);
+    glm::dmat3 sum(0.0);
+    for (const Group& group : groups_)
+        sum += group.cofactor * (group.count / scale_); // cof(M^T M) = C^T C
+    return sum;
+}
+
 void InstanceWeights::tabulate() {
     table_.resize(slotOf(3, 0, 0));
     for (int face = 0; face < 3; ++face)

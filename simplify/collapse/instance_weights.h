@@ -42,6 +42,10 @@ public:
                 bool by_length,
                 std::vector<Plane>& out) const;
 
+    // Sum of C^T C over scale(): v^T area() v is what a vector area v counts, squared, over all
+    // instances (Lindstrom and Turk's border term).
+    glm::dmat3 area() const;
+
     // The largest factor by which an instance stretches a length.
     double maxStretch() const { return max_stretch_; }
 

@@ -1,5 +1,6 @@
 #include "simplify/collapse/sequence.h"
 
+#include "simplify/collapse/collapse_method.h"
 #include "simplify/collapse/radix_sort.h"
 
 #include <algorithm>
@@ -197,7 +198,7 @@ struct Build {
     std::vector<CollapseLog> logs;     // [components]
     std::vector<double> cost_scales;   // [components]
     std::vector<double> length_scales; // [components]
-    std::unique_ptr<tbb::enumerable_thread_specific<std::unique_ptr<ComponentMesh>>> meshes;
+    std::unique_ptr<tbb::enumerable_thread_specific<std::unique_ptr<ComponentCollapser>>> workers;
 };
 
 // Neighbouring components that one worker takes together.
@@ -227,13 +228,33 @@ std::vector<Batch> makeBatches(std::span<const Build> builds) {
     return batches;
 }
 
-bool collapseComponent(ComponentMesh& mesh,
-                       const CollapseOptions& options,
-                       const CollapseWatch& watch) {
-    if (mesh.liveFaces() > options.near_greedy_above &&
-        !collapseNearGreedy(mesh, options.exact_below, watch))
-        return false;
-    return collapseExactGreedy(mesh, watch);
+class GreedyCollapser final : public ComponentCollapser {
+public:
+    GreedyCollapser(const Build& build,
+                    const SequenceRequest& request,
+                    const CollapseOptions& options)
+        : options_(options), mesh_(build.complex, request.weights, build.attributes, options) {}
+
+    bool collapse(std::size_t component, const CollapseWatch& watch) override {
+        mesh_.load(component);
+        if (mesh_.liveFaces() > options_.near_greedy_above &&
+            !collapseNearGreedy(mesh_, options_.exact_below, watch))
+            return false;
+        return collapseExactGreedy(mesh_, watch);
+    }
+
+    ComponentMesh& mesh() override { return mesh_; }
+
+private:
+    const CollapseOptions& options_;
+    ComponentMesh mesh_;
+};
+
+std::unique_ptr<ComponentCollapser>
+makeCollapser(const Build& build, const SequenceRequest& request, const CollapseOptions& options) {
+    if (options.method)
+        return options.method->collapser(build.complex, request, build.attributes, options);
+    return std::make_unique<GreedyCollapser>(build, request, options);
 }
 
 bool runBatch(const Batch& batch,
@@ -241,17 +262,16 @@ bool runBatch(const Batch& batch,
               const SequenceRequest& request,
               const CollapseOptions& options,
               const CollapseWatch& watch) {
-    std::unique_ptr<ComponentMesh>& mesh = build.meshes->local();
-    if (!mesh)
-        mesh = std::make_unique<ComponentMesh>(
-            build.complex, request.weights, build.attributes, options);
+    std::unique_ptr<ComponentCollapser>& worker = build.workers->local();
+    if (!worker)
+        worker = makeCollapser(build, request, options);
     for (std::size_t c = batch.begin; c < batch.end; ++c) {
-        mesh->load(c);
-        if (!collapseComponent(*mesh, options, watch))
+        if (!worker->collapse(c, watch))
             return false;
-        build.cost_scales[c] = mesh->costScale() * request.weights.scale() * request.world_weight;
-        build.length_scales[c] = std::sqrt(std::sqrt(mesh->costScale()));
-        build.logs[c] = mesh->takeLog();
+        ComponentMesh& mesh = worker->mesh();
+        build.cost_scales[c] = mesh.costScale() * request.weights.scale() * request.world_weight;
+        build.length_scales[c] = std::sqrt(std::sqrt(mesh.costScale()));
+        build.logs[c] = mesh.takeLog();
     }
     return true;
 }
@@ -268,14 +288,16 @@ Result<std::vector<CollapseSequence>> buildSequences(std::span<const SequenceReq
             return;
         Build& build = builds[b];
         build.complex = buildComplex(*requests[b].submesh, job);
+        if (options.method)
+            options.method->arrange(build.complex, requests[b], job);
         if (job.stopRequested())
             return;
         build.attributes = gatherAttributes(*requests[b].submesh, build.complex);
         build.logs.resize(build.complex.componentCount());
         build.cost_scales.resize(build.logs.size());
         build.length_scales.resize(build.logs.size());
-        build.meshes =
-            std::make_unique<tbb::enumerable_thread_specific<std::unique_ptr<ComponentMesh>>>();
+        build.workers = std::make_unique<
+            tbb::enumerable_thread_specific<std::unique_ptr<ComponentCollapser>>>();
     });
     if (job.stopRequested())
         return cancelled();
@@ -301,7 +323,7 @@ Result<std::vector<CollapseSequence>> buildSequences(std::span<const SequenceReq
     std::vector<CollapseSequence> sequences(requests.size());
     tbb::parallel_for(std::size_t{0}, builds.size(), [&](std::size_t b) {
         Build& build = builds[b];
-        build.meshes.reset();
+        build.workers.reset();
         sequences[b] = joinLogs(std::move(build.complex),
                                 std::move(build.attributes),
                                 std::move(build.logs),

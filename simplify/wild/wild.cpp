@@ -1,0 +1,167 @@
+#include "simplify/wild/wild.h"
+
+#include "scene/expand.h"
+#include "simplify/collapse/collapse_method.h"
+#include "simplify/collapse/parameters.h"
+#include "simplify/wild/virtual_edges.h"
+#include "simplify/wild/wild_mesh.h"
+
+namespace lodestone {
+
+namespace {
+
+class WildCollapser final : public ComponentCollapser {
+public:
+    WildCollapser(const Complex& complex,
+                  const SequenceRequest& request,
+                  const WedgeAttributes& attributes,
+                  const CollapseOptions& options,
+                  WildOptions wild)
+        : wild_(std::move(wild)), mesh_(complex, request.weights, attributes, options, wild_) {}
+
+    bool collapse(std::size_t component, const CollapseWatch& watch) override {
+        mesh_.load(component);
+        return collapseLazily(
+            mesh_, wild_.checks ? Strictness::Manifold : Strictness::Anything, watch);
+    }
+
+    ComponentMesh& mesh() override { return mesh_; }
+
+private:
+    WildOptions wild_;
+    WildMesh mesh_;
+};
+
+class WildMethod final : public CollapseMethod {
+public:
+    WildMethod(ScenePtr scene, const WildOptions& wild, const VirtualEdgeOptions& virtual_edges)
+        : scene_(std::move(scene)), wild_(wild), virtual_edges_(virtual_edges) {}
+
+    void arrange(Complex& complex,
+                 const SequenceRequest& /*request*/,
+                 const JobContext& job) const override {
+        addVirtualEdges(complex, virtual_edges_, job);
+    }
+
+    std::unique_ptr<ComponentCollapser> collapser(const Complex& complex,
+                                                  const SequenceRequest& request,
+                                                  const WedgeAttributes& attributes,
+                                                  const CollapseOptions& options) const override {
+        WildOptions wild = wild_;
+        for (const Primitive& primitive : request.submesh->primitives)
+            wild.two_sided.push_back(primitive.material != kNone &&
+                                     scene_->materials[primitive.material].double_sided);
+        return std::make_unique<WildCollapser>(
+            complex, request, attributes, options, std::move(wild));
+    }
+
+private:
+    ScenePtr scene_;
+    WildOptions wild_;
+    VirtualEdgeOptions virtual_edges_;
+};
+
+enum class Scope : std::uint8_t { Auto, Submesh, Expanded };
+
+// Instancing is worth keeping from here on (the bound below which the IAS paper expands).
+constexpr double kInstancesPerSubmesh = 1.75;
+
+bool expands(const Scene& scene, Scope scope) {
+    if (scope != Scope::Auto)
+        return scope == Scope::Expanded;
+    const SceneCounts counts = countScene(scene);
+    return static_cast<double>(counts.instances) <
+           kInstancesPerSubmesh * static_cast<double>(counts.submeshes);
+}
+
+Result<LodSourcePtr> prepareWild(const ScenePtr& scene,
+                                 const ParameterValues& values,
+                                 const ScheduleOptions& schedule,
+                                 const JobContext& job) {
+    const Algorithm row = wildAlgorithm();
+    if (const Result<void> checked = checkParameters(row, values); !checked)
+        return tl::unexpected(checked.error());
+    const auto value = [&](std::string_view id) { return parameterValue(row, values, id); };
+    ScenePtr input = scene;
+    ScheduleOptions order = schedule;
+    EdgeCollapseOptions options;
+    options.remove_instances = value("remove-instances") > 0.5;
+    options.floors.enabled = value("floors") > 0.5;
+    if (expands(*scene, static_cast<Scope>(value("scope")))) {
+        Result<ScenePtr> expanded = expandScene(*scene, job);
+        if (!expanded)
+            return tl::unexpected(expanded.error());
+        input = std::move(*expanded);
+        // Importance and locks speak of the input's submeshes, which are no longer there.
+        order = {schedule.ordering, {}, {}};
+        options.remove_instances = false;
+    }
+    WildOptions wild;
+    wild.area_weight = value("area");
+    wild.checks = value("checks") > 0.5;
+    VirtualEdgeOptions virtual_edges;
+    virtual_edges.epsilon = value("epsilon") / 100.0;
+    virtual_edges.rule = static_cast<VirtualEdgeRule>(value("virtual-edges"));
+    options.collapse.boundary_weight = 0.0; // the area term stands in for it
+    options.collapse.attributes = {0.0, 0.0, 0.0};
+    options.collapse.method = std::make_shared<const WildMethod>(input, wild, virtual_edges);
+    return prepareEdgeCollapse(input, options, order, job);
+}
+
+ParameterInfo number(std::string_view id, double maximum, double fallback) {
+    ParameterInfo info;
+    info.id = id;
+    info.maximum = maximum;
+    info.fallback = fallback;
+    return info;
+}
+
+ParameterInfo choice(std::string_view id, std::vector<std::string_view> choices) {
+    ParameterInfo info;
+    info.id = id;
+    info.kind = ParameterInfo::Kind::Choice;
+    info.choices = std::move(choices);
+    return info;
+}
+
+std::vector<ParameterInfo> wildParameters() {
+    ParameterInfo epsilon = number("epsilon", 5.0, 0.1);
+    epsilon.label = "Merge distance";
+    epsilon.unit = "% of the diagonal";
+    epsilon.tooltip = "Separate parts that come nearer than this may merge; 0: none.";
+    ParameterInfo rule = choice("virtual-edges", {"triangles", "vertices"});
+    rule.label = "Near is measured";
+    rule.tooltip = "Between triangles, or between vertices as Garland and Heckbert do.";
+    ParameterInfo area = number("area", 100.0, 1.0);
+    area.label = "Area weight";
+    area.tooltip = "How firmly open borders keep the area inside them.";
+    ParameterInfo checks = number("checks", 1.0, 0.0);
+    checks.kind = ParameterInfo::Kind::Toggle;
+    checks.label = "Validity checks";
+    checks.tooltip = "Keep topology and turn no face over: for input known to be manifold.";
+    ParameterInfo scope = choice("scope", {"auto", "submesh", "expanded"});
+    scope.label = "Scope";
+    scope.tooltip = "Submesh by submesh, weighted by their instances, or all instances of a "
+                    "material as one; auto: by submesh where the scene is instanced.";
+    ParameterInfo floors = number("floors", 1.0, 1.0);
+    floors.kind = ParameterInfo::Kind::Toggle;
+    floors.label = "Floors";
+    floors.tooltip = "Keep at least four triangles and most of the extent of every submesh.";
+    return {epsilon, rule, area, checks, scope, floors, removalParameter()};
+}
+
+} // namespace
+
+Algorithm wildAlgorithm() {
+    Algorithm row;
+    row.id = "wild";
+    row.name = "Wild";
+    row.short_name = "Wild";
+    row.paper = "Liu et al. 2024";
+    row.summary = "Merges separate parts, keeps the area of open borders and takes any triangles.";
+    row.parameters = wildParameters();
+    row.prepare = prepareWild;
+    return row;
+}
+
+} // namespace lodestone

@@ -1,0 +1,203 @@
+#include "scene/expand.h"
+#include "simplify/algorithm.h"
+#include "simplify/wild/triangle_distance.h"
+#include "simplify/wild/virtual_edges.h"
+#include "simplify/wild/wild.h"
+#include "tests/simplify/meshes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <random>
+
+using namespace lodestone;
+using namespace lodestone::meshes;
+
+namespace {
+
+ScenePtr sceneWith(std::vector<GeometryPtr> primitives) {
+    return sceneOf({submeshOf(std::move(primitives))}, {{glm::dmat4(1.0)}});
+}
+
+// Several geometries without attributes as one.
+GeometryPtr together(const std::vector<GeometryPtr>& parts) {
+    Geometry all;
+    for (const GeometryPtr& part : parts) {
+        const auto first = static_cast<std::uint32_t>(all.positions.size());
+        all.positions.insert(all.positions.end(), part->positions.begin(), part->positions.end());
+        for (const std::uint32_t index : part->indices)
+            all.indices.push_back(first + index);
+    }
+    return std::make_shared<const Geometry>(std::move(all));
+}
+
+LodSourcePtr wild(const ScenePtr& scene, const ParameterValues& values) {
+    Result<LodSourcePtr> source = wildAlgorithm().prepare(scene, values, {}, {});
+    EXPECT_TRUE(source) << source.error().message;
+    return source ? *source : nullptr;
+}
+
+Complex complexOf(const std::vector<GeometryPtr>& primitives, const VirtualEdgeOptions& options) {
+    Complex complex = buildComplex(submeshOf(primitives), {});
+    addVirtualEdges(complex, options, {});
+    return complex;
+}
+
+// Distance by brute force over a grid of points on both triangles.
+double sampledGap(const Triangle& a, const Triangle& b) {
+    constexpr int kSteps = 40;
+    double best = 1e9;
+    for (int i = 0; i <= kSteps; ++i)
+        for (int j = 0; i + j <= kSteps; ++j) {
+            const double u = double(i) / kSteps;
+            const double v = double(j) / kSteps;
+            const glm::dvec3 on_a = a[0] + (a[1] - a[0]) * u + (a[2] - a[0]) * v;
+            const glm::dvec3 on_b = b[0] + (b[1] - b[0]) * u + (b[2] - b[0]) * v;
+            best = std::min(best, std::sqrt(squaredDistance(on_a, b)));
+            best = std::min(best, std::sqrt(squaredDistance(on_b, a)));
+        }
+    return best;
+}
+
+} // namespace
+
+TEST(TriangleGap, AgreesWithSamplesAndItsOwnPoints) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> at(-1.0, 1.0);
+    for (int round = 0; round < 300; ++round) {
+        Triangle a;
+        Triangle b;
+        for (std::size_t k = 0; k < 3; ++k) {
+            a[k] = {at(random), at(random), at(random)};
+            b[k] = glm::dvec3(at(random), at(random), at(random)) + glm::dvec3(round % 3, 0, 0);
+        }
+        if (round % 5 == 0)
+            b[2] = b[1]; // a segment
+        const TriangleGap gap = triangleGap(a, b);
+        EXPECT_NEAR(gap.distance, glm::length(gap.at[0] - gap.at[1]), 1e-12);
+        EXPECT_LT(std::sqrt(squaredDistance(gap.at[0], a)), 1e-9);
+        EXPECT_LT(std::sqrt(squaredDistance(gap.at[1], b)), 1e-9);
+        const double sampled = sampledGap(a, b);
+        EXPECT_LE(gap.distance, sampled + 1e-9);
+        EXPECT_GE(gap.distance, sampled - 0.08); // the samples' spacing
+    }
+}
+
+TEST(TriangleGap, IsZeroWhereTrianglesCross) {
+    const Triangle flat{glm::dvec3(0, 0, 0), {2, 0, 0}, {0, 2, 0}};
+    const Triangle through{glm::dvec3(0.5, 0.5, -1), {0.5, 0.5, 1}, {3, 3, 1}};
+    EXPECT_EQ(triangleGap(flat, through).distance, 0.0);
+    EXPECT_EQ(triangleGap(through, flat).distance, 0.0);
+}
+
+TEST(VirtualEdges, JoinPartsWhoseSurfacesTouchThoughTheirVerticesAreFarApart) {
+    // A post stands in the middle of a large floor of two triangles.
+    const auto floor = grid(1);
+    auto post = moved(grid(1), {0.5, 0.4, 0.0});
+    const Complex by_triangle =
+        complexOf({floor, moved(post, {0, 0, 1e-3})}, {0.01, VirtualEdgeRule::Triangles});
+    EXPECT_FALSE(by_triangle.virtual_edges.empty());
+    EXPECT_EQ(by_triangle.componentCount(), 1u);
+    const Complex by_vertex =
+        complexOf({floor, moved(post, {0, 0, 1e-3})}, {0.01, VirtualEdgeRule::Vertices});
+    EXPECT_TRUE(by_vertex.virtual_edges.empty());
+    EXPECT_EQ(by_vertex.componentCount(), 2u);
+}
+
+TEST(VirtualEdges, EndInDifferentComponentsAndLieInTheirJoinedOne) {
+    std::vector<GeometryPtr> parts;
+    for (int i = 0; i < 6; ++i)
+        parts.push_back(moved(grid(3), {0.0, 0.0, 0.01 * i + (i > 2 ? 5.0 : 0.0)}));
+    const Complex apart = complexOf(parts, {});
+    const Complex joined = complexOf(parts, {0.01, VirtualEdgeRule::Triangles});
+    EXPECT_EQ(apart.componentCount(), 6u);
+    ASSERT_EQ(joined.componentCount(), 2u);
+    ASSERT_EQ(joined.virtual_begin.size(), 3u);
+    EXPECT_EQ(joined.virtual_begin.back(), joined.virtual_edges.size());
+    EXPECT_EQ(joined.component_begin.back(), joined.faces.size());
+    for (std::size_t c = 0; c < 2; ++c)
+        for (std::uint32_t e = joined.virtual_begin[c]; e < joined.virtual_begin[c + 1]; ++e)
+            for (const std::uint32_t v : joined.virtual_edges[e])
+                EXPECT_EQ(joined.positions[v].z > 2.0f, c == 1);
+}
+
+TEST(VirtualEdges, NoneWithoutADistance) {
+    const Complex complex = complexOf({grid(3), moved(grid(3), {0, 0, 1e-4})}, {});
+    EXPECT_TRUE(complex.virtual_edges.empty());
+    EXPECT_EQ(complex.componentCount(), 2u);
+}
+
+TEST(Wild, SheetsThatLieOnEachOtherBecomeOne) {
+    const GeometryPtr sheets = together({grid(8), moved(grid(8), {0.0, 0.0, 1e-4})});
+    const ScenePtr scene = sceneWith({sheets});
+    const LodSourcePtr source = wild(scene, {{"epsilon", 1.0}});
+    const ByteModel bytes(source->scene(), {});
+    const Lod half =
+        source->readOut(source->resolve({Target::Kind::Ratio, 0.5}, bytes).position, nullptr);
+    const Shape shape = shapeOf(half.submeshes.front().primitives);
+    EXPECT_GT(shape.area, 0.99 * (shape.area > 1.5 ? 2.0 : 1.0));
+    EXPECT_LT(source->errorAt(half.position), 0.1);
+    EXPECT_EQ(shape.degenerate_faces, 0u);
+}
+
+TEST(Wild, KeepsTheAreaOfCardsThatPlanesAloneEatUp) {
+    std::vector<GeometryPtr> cards;
+    for (int i = 0; i < 30; ++i)
+        cards.push_back(moved(grid(4), {1.5 * (i % 6), 1.5 * (i / 6), 0.0}));
+    const ScenePtr scene = sceneWith({together(cards)});
+    const auto area_at = [&](double weight) {
+        const LodSourcePtr source = wild(scene, {{"area", weight}});
+        const ByteModel bytes(source->scene(), {});
+        const Lod lod =
+            source->readOut(source->resolve({Target::Kind::Ratio, 0.07}, bytes).position, nullptr);
+        return shapeOf(lod.submeshes.front().primitives).area;
+    };
+    EXPECT_NEAR(area_at(1.0), 30.0, 0.3);
+    EXPECT_LT(area_at(0.0), 27.0);
+}
+
+TEST(Wild, MergesAcrossPrimitivesWithoutMixingTheirVertices) {
+    const std::vector<float> values(81 * 2, 0.25f);
+    const GeometryPtr one = withAttribute(*grid(8), "TEXCOORD_0", values);
+    const GeometryPtr other = moved(grid(8), {0.5, 0.5, 1e-4});
+    const ScenePtr scene = sceneWith({one, other});
+    const LodSourcePtr source = wild(scene, {{"epsilon", 1.0}, {"scope", 1.0}});
+    for (std::uint64_t p = 0; p < source->positionCount(); p += 3) {
+        const Lod lod = source->readOut(p, nullptr);
+        for (const GeometryPtr& geometry : lod.submeshes.front().primitives)
+            for (const std::uint32_t index : geometry->indices)
+                ASSERT_LT(index, geometry->positions.size());
+    }
+}
+
+TEST(Wild, OneFaceStaysOfTwoOnTheSameVerticesOnlyWhereEitherSideShows) {
+    // A closed tetrahedron flattens into two faces back to back; both are seen.
+    const ScenePtr scene = sceneWith({sphere(3, 3, 0.0)});
+    const LodSourcePtr source = wild(scene, {});
+    const Lod last = source->readOut(source->positionCount() - 1, nullptr);
+    EXPECT_GE(last.triangles, 2u);
+}
+
+TEST(Wild, InstancesWeighLikeCopies) {
+    // Borders of a stretched instance count as they do once it is expanded.
+    const InstanceWeights plain;
+    EXPECT_EQ(plain.area(), glm::dmat3(1.0));
+    std::mt19937 random(3);
+    std::normal_distribution<double> entry;
+    std::vector<glm::dmat3> parts(5);
+    for (glm::dmat3& part : parts)
+        for (int c = 0; c < 3; ++c)
+            for (int r = 0; r < 3; ++r)
+                part[c][r] = entry(random);
+    const InstanceWeights weights(parts);
+    const glm::dvec3 u(0.3, -0.2, 0.9);
+    const glm::dvec3 v(-0.5, 0.4, 0.1);
+    double literal = 0.0; // squared areas, instance by instance
+    for (const glm::dmat3& part : parts) {
+        const glm::dvec3 swept = glm::cross(part * u, part * v);
+        literal += glm::dot(swept, swept);
+    }
+    const glm::dvec3 swept = glm::cross(u, v);
+    const double closed = weights.scale() * glm::dot(swept, weights.area() * swept);
+    EXPECT_NEAR(closed, literal, 1e-9 * literal);
+}
