@@ -3,7 +3,10 @@
 #include "scene/expand.h"
 #include "scene/import.h"
 
+#include <algorithm>
 #include <chrono>
+#include <fmt/core.h>
+#include <iterator>
 
 namespace lodestone {
 
@@ -54,6 +57,26 @@ RunOutcome runPrepared(const RunRequest& request, const LodSourcePtr& source) {
     return outcome;
 }
 
+// The LOD becomes a scene of its own, with new textures.
+Result<void>
+transferTextures(RunOutcome& outcome, const ExportOptions& export_options, const JobContext& job) {
+    const Stopwatch watch;
+    Result<BakedScene> baked = outcome.source->transferred(*outcome.lod, job);
+    if (!baked)
+        return tl::unexpected<Error>(std::move(baked.error()));
+    outcome.scene = std::move(baked->scene);
+    outcome.lod = std::make_shared<const Lod>(fullLod(*outcome.scene));
+    const ByteModel bytes(outcome.scene, export_options);
+    outcome.predicted_bytes = bytes.bytes(shapeOf(*outcome.scene, *outcome.lod));
+    outcome.bytes = outcome.predicted_bytes;
+    outcome.seconds.readout += watch.seconds();
+    std::ranges::move(baked->notes, std::back_inserter(outcome.notes));
+    if (baked->texels_per_unit > 0.0)
+        outcome.notes.push_back(
+            fmt::format("transferred textures: {:.4g} texels a unit", baked->texels_per_unit));
+    return {};
+}
+
 } // namespace
 
 Result<LoadedInput> loadInput(const std::filesystem::path& path, const JobContext& job) {
@@ -81,6 +104,9 @@ Result<RunOutcome> runAlgorithm(const RunRequest& request, const JobContext& job
         if (!source)
             return tl::unexpected<Error>(std::move(source.error()));
         outcome = runPrepared(request, *source);
+        if ((*source)->transfersTextures())
+            if (Result<void> done = transferTextures(outcome, request.export_options, job); !done)
+                return tl::unexpected<Error>(std::move(done.error()));
     }
     if (job.stopRequested())
         return cancelled();

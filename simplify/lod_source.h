@@ -1,7 +1,10 @@
 #pragma once
 // What a lane holds once the slow part is done: any LOD, at once.
 #include "scene/export.h"
+#include "scene/job_context.h"
 #include "scene/lod.h"
+#include "scene/result.h"
+#include "simplify/bake/baked_scene.h"
 #include "simplify/target.h"
 
 namespace lodestone {
@@ -38,6 +41,15 @@ public:
     virtual std::shared_ptr<const LodSource> rescheduled(const ScheduleOptions& options,
                                                          const ByteModel& bytes) const = 0;
     virtual std::vector<std::string> notes() const = 0;
+
+    // Whether a LOD that is written gets textures of its own, by transferred().
+    virtual bool transfersTextures() const { return false; }
+
+    // lod: read out from this source. Slow: seconds. Errors: Usage if textures are kept, or an
+    // atlas is too small; Cancelled.
+    virtual Result<BakedScene> transferred(const Lod& /*lod*/, const JobContext& /*job*/) const {
+        return fail(ErrorKind::Usage, "this lane keeps its textures");
+    }
 
     // Seconds of wall time that each stage took.
     double seconds_sequence = 0.0;

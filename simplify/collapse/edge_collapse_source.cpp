@@ -53,6 +53,10 @@ public:
 
     std::vector<std::string> notes() const override { return {}; }
 
+    bool transfersTextures() const override { return set_->bake.has_value(); }
+
+    Result<BakedScene> transferred(const Lod& lod, const JobContext& job) const override;
+
 private:
     // The first position that fits, by bisection; positionCount() if none does.
     template <class Fits>
@@ -197,6 +201,22 @@ Lod EdgeCollapseSource::readOut(std::uint64_t position, const Lod* previous) con
     return lod;
 }
 
+Result<BakedScene> EdgeCollapseSource::transferred(const Lod& lod, const JobContext& job) const {
+    if (!set_->bake)
+        return LodSource::transferred(lod, job);
+    std::vector<BakeSubmesh> submeshes(set_->sequences.size());
+    for (std::size_t s = 0; s < submeshes.size(); ++s) {
+        const RemovalSequence& removal = set_->removals[s];
+        const SubmeshState state = schedule_.stateAt(s, lod.position);
+        submeshes[s] = {&set_->sequences[s],
+                        state.step,
+                        removal.possible() ? growthAt(removal, state.kept_instances) : 1.0,
+                        removal.pivot,
+                        set_->max_stretch[s]};
+    }
+    return bakeTextures(*set_->scene, lod, submeshes, *set_->bake, job);
+}
+
 // Sets set.max_stretch, too.
 std::vector<SequenceRequest> requestsFor(SequenceSet& set, const EdgeCollapseOptions& options) {
     const Scene& scene = *set.scene;
@@ -244,6 +264,7 @@ Result<LodSourcePtr> prepareEdgeCollapse(ScenePtr scene,
     const auto start = std::chrono::steady_clock::now();
     auto set = std::make_shared<SequenceSet>();
     set->scene = std::move(scene);
+    set->bake = options.bake;
     set->ranges = instanceRanges(*set->scene);
     const Bounds bounds = robustWorldBounds(*set->scene);
     set->diagonal = bounds.diagonal() > 0.0 ? bounds.diagonal() : 1.0;

@@ -1,5 +1,6 @@
 #pragma once
 // One global order of all steps of all submeshes, and what every position of it looks like.
+#include "simplify/bake/bake.h"
 #include "simplify/collapse/removal.h"
 #include "simplify/collapse/sequence.h"
 #include "simplify/lod_source.h"
@@ -14,6 +15,7 @@ struct SequenceSet {
     std::vector<RemovalSequence> removals;   // [submeshes] empty costs: nothing to remove
     std::vector<double> max_stretch;         // [submeshes] of its instances
     double diagonal = 1.0;                   // robust, world
+    std::optional<BakeOptions> bake;         // none: LODs keep their textures
 };
 
 // The state of one submesh at a position.

@@ -46,7 +46,25 @@ std::optional<glm::dvec3> crossing(const glm::dvec3& p, const glm::dvec3& q, con
     return x;
 }
 
+// Whether a triangle lies on one side of another's plane, farther from it than a distance.
+bool aside(const Triangle& a, const Triangle& b, double distance) {
+    const glm::dvec3 normal = glm::cross(a[1] - a[0], a[2] - a[0]);
+    const double limit = distance * glm::length(normal);
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (const glm::dvec3& p : b) {
+        const double height = glm::dot(normal, p - a[0]);
+        low = std::min(low, height);
+        high = std::max(high, height);
+    }
+    return low > limit || high < -limit;
+}
+
 } // namespace
+
+bool surelyApart(const Triangle& a, const Triangle& b, double distance) {
+    return aside(a, b, distance) || aside(b, a, distance);
+}
 
 TriangleGap triangleGap(const Triangle& a, const Triangle& b) {
     TriangleGap best{std::numeric_limits<double>::infinity(), {}};
@@ -61,6 +79,9 @@ TriangleGap triangleGap(const Triangle& a, const Triangle& b) {
             return {0.0, {*x, *x}};
         if (const auto x = crossing(b[k], b[next], a))
             return {0.0, {*x, *x}};
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t next = (k + 1) % 3;
         offer(a[k], closestPoint(a[k], b));
         offer(closestPoint(b[k], a), b[k]);
         for (std::size_t l = 0; l < 3; ++l) {

@@ -12,4 +12,7 @@ struct TriangleGap {
 // Exact but for rounding; triangles may have collapsed to segments or points.
 TriangleGap triangleGap(const Triangle& a, const Triangle& b);
 
+// Cheap: true only if they are farther apart than a distance, because a plane of one parts them.
+bool surelyApart(const Triangle& a, const Triangle& b, double distance);
+
 } // namespace lodestone

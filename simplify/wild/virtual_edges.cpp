@@ -68,7 +68,11 @@ struct Finder {
 
     void offer(std::uint32_t face, std::uint32_t other, std::vector<Candidate>& out) const {
         if (rule == VirtualEdgeRule::Triangles) {
-            const TriangleGap gap = triangleGap(triangle(face), triangle(other));
+            const Triangle one = triangle(face);
+            const Triangle two = triangle(other);
+            if (surelyApart(one, two, reach))
+                return;
+            const TriangleGap gap = triangleGap(one, two);
             if (gap.distance < reach)
                 out.push_back(edge(cornerAt(face, gap.at[0]), cornerAt(other, gap.at[1])));
             return;
@@ -99,6 +103,22 @@ std::vector<Candidate> findCandidates(const Finder& finder, const JobContext& jo
     for (const std::vector<Candidate>& block : blocks)
         all.insert(all.end(), block.begin(), block.end());
     return all;
+}
+
+// The shortest edges, few at each vertex: in a heap of crossing triangles all are near all others.
+std::vector<std::array<std::uint32_t, 2>> shortestOf(std::vector<Candidate> edges,
+                                                     std::size_t vertex_count) {
+    constexpr std::uint32_t kMostAtVertex = 8;
+    std::ranges::stable_sort(edges, {}, &Candidate::length);
+    std::vector<std::uint32_t> taken(vertex_count, 0);
+    std::vector<std::array<std::uint32_t, 2>> kept;
+    for (const Candidate& edge : edges)
+        if (taken[edge.a] < kMostAtVertex && taken[edge.b] < kMostAtVertex) {
+            ++taken[edge.a];
+            ++taken[edge.b];
+            kept.push_back({edge.a, edge.b});
+        }
+    return kept;
 }
 
 // Keeps the pairs in which each end is the other's nearest in that component.
@@ -133,12 +153,12 @@ mutuallyNearest(std::span<const Candidate> candidates,
             std::lower_bound(choices.begin(), choices.end(), Choice{vertex, component, -1.0, 0});
         return found->other;
     };
-    std::vector<std::array<std::uint32_t, 2>> edges;
+    std::vector<Candidate> mutual;
     for (const Choice& choice : choices)
         if (choice.vertex < choice.other &&
             nearest(choice.other, component_of_vertex[choice.vertex]) == choice.vertex)
-            edges.push_back({choice.vertex, choice.other});
-    return edges;
+            mutual.push_back({choice.vertex, choice.other, choice.length});
+    return shortestOf(std::move(mutual), component_of_vertex.size());
 }
 
 std::uint32_t rootOf(std::vector<std::uint32_t>& parent, std::uint32_t component) {

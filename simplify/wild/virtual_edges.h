@@ -20,7 +20,7 @@ struct VirtualEdgeOptions {
 // Adds virtual edges to a complex and joins the components that they connect, so that a component
 // is what can become one piece. For two near triangles the edge leads between the vertices nearest
 // to their closest points; of those that a vertex has to one other component only the shortest
-// stays, and only if it is the other end's shortest, too.
+// stays, and only if it is the other end's shortest, too; at most 8 at a vertex.
 // Parallel, the same for any number of threads; stops early where asked to.
 // O(faces log faces + pairs of near faces). Source: Wild (Liu et al. 2024), section 5.
 void addVirtualEdges(Complex& complex, const VirtualEdgeOptions& options, const JobContext& job);

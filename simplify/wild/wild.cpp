@@ -102,6 +102,9 @@ Result<LodSourcePtr> prepareWild(const ScenePtr& scene,
     VirtualEdgeOptions virtual_edges;
     virtual_edges.epsilon = value("epsilon") / 100.0;
     virtual_edges.rule = static_cast<VirtualEdgeRule>(value("virtual-edges"));
+    if (value("texture") > 0.5)
+        options.bake = BakeOptions{
+            static_cast<std::uint32_t>(value("atlas")), value("merge-materials") > 0.5, {}};
     options.collapse.boundary_weight = 0.0; // the area term stands in for it
     options.collapse.attributes = {0.0, 0.0, 0.0};
     options.collapse.method = std::make_shared<const WildMethod>(input, wild, virtual_edges);
@@ -147,7 +150,21 @@ std::vector<ParameterInfo> wildParameters() {
     floors.kind = ParameterInfo::Kind::Toggle;
     floors.label = "Floors";
     floors.tooltip = "Keep at least four triangles and most of the extent of every submesh.";
-    return {epsilon, rule, area, checks, scope, floors, removalParameter()};
+    ParameterInfo texture = choice("texture", {"keep", "transfer"});
+    texture.label = "Texture";
+    texture.tooltip = "Keep the texture coordinates, or bake new textures when the LOD is written.";
+    ParameterInfo atlas = number("atlas", 8192.0, 1024.0);
+    atlas.kind = ParameterInfo::Kind::Integer;
+    atlas.label = "Atlas size";
+    atlas.unit = "px";
+    atlas.minimum = 256.0;
+    atlas.logarithmic = true;
+    atlas.tooltip = "Side of each baked texture.";
+    ParameterInfo merge = number("merge-materials", 1.0, 0.0);
+    merge.kind = ParameterInfo::Kind::Toggle;
+    merge.label = "One atlas for all";
+    merge.tooltip = "Materials that blend alike share one atlas and become one.";
+    return {epsilon, rule, area, checks, scope, floors, texture, atlas, merge, removalParameter()};
 }
 
 } // namespace

@@ -1,0 +1,233 @@
+#include "simplify/bake/successive_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace lodestone {
+
+namespace {
+
+// What happens at each step, up to a last one: ids grouped by step.
+struct ByStep {
+    std::vector<std::uint32_t> begin; // [steps + 1] of step s at s - 1
+    std::vector<std::uint32_t> ids;
+
+    std::span<const std::uint32_t> at(std::uint32_t step) const {
+        return {ids.data() + begin[step - 1], begin[step] - begin[step - 1]};
+    }
+};
+
+ByStep groupBySteps(std::span<const std::uint32_t> step_of, std::uint32_t last) {
+    ByStep groups;
+    groups.begin.assign(last + 2, 0);
+    const auto takes = [&](std::uint32_t step) { return step >= 1 && step <= last; };
+    for (const std::uint32_t step : step_of)
+        if (takes(step))
+            ++groups.begin[step];
+    std::partial_sum(groups.begin.begin(), groups.begin.end(), groups.begin.begin());
+    groups.ids.resize(groups.begin.back());
+    std::vector<std::uint32_t> at(groups.begin.begin(), groups.begin.end() - 1);
+    for (std::uint32_t i = 0; i < step_of.size(); ++i)
+        if (takes(step_of[i]))
+            groups.ids[at[step_of[i] - 1]++] = i;
+    return groups;
+}
+
+// Weights of the closest point of a triangle (Ericson 2005, 5.1.5).
+glm::vec3 closestOn(const glm::vec3& p, const std::array<glm::vec3, 3>& t) {
+    const glm::vec3 ab = t[1] - t[0];
+    const glm::vec3 ac = t[2] - t[0];
+    const glm::vec3 ap = p - t[0];
+    const float d1 = glm::dot(ab, ap);
+    const float d2 = glm::dot(ac, ap);
+    if (d1 <= 0.0f && d2 <= 0.0f)
+        return {1.0f, 0.0f, 0.0f};
+    const glm::vec3 bp = p - t[1];
+    const float d3 = glm::dot(ab, bp);
+    const float d4 = glm::dot(ac, bp);
+    if (d3 >= 0.0f && d4 <= d3)
+        return {0.0f, 1.0f, 0.0f};
+    const float vc = d1 * d4 - d3 * d2;
+    if (vc <= 0.0f && d1 >= 0.0f && d3 <= 0.0f) {
+        const float v = d1 / std::max(d1 - d3, std::numeric_limits<float>::min());
+        return {1.0f - v, v, 0.0f};
+    }
+    const glm::vec3 cp = p - t[2];
+    const float d5 = glm::dot(ab, cp);
+    const float d6 = glm::dot(ac, cp);
+    if (d6 >= 0.0f && d5 <= d6)
+        return {0.0f, 0.0f, 1.0f};
+    const float vb = d5 * d2 - d1 * d6;
+    if (vb <= 0.0f && d2 >= 0.0f && d6 <= 0.0f) {
+        const float w = d2 / std::max(d2 - d6, std::numeric_limits<float>::min());
+        return {1.0f - w, 0.0f, w};
+    }
+    const float va = d3 * d6 - d5 * d4;
+    if (va <= 0.0f && d4 - d3 >= 0.0f && d5 - d6 >= 0.0f) {
+        const float w =
+            (d4 - d3) / std::max((d4 - d3) + (d5 - d6), std::numeric_limits<float>::min());
+        return {0.0f, 1.0f - w, w};
+    }
+    const float sum = va + vb + vc;
+    if (!(sum > 0.0f))
+        return {1.0f, 0.0f, 0.0f};
+    return {va / sum, vb / sum, vc / sum};
+}
+
+glm::vec3 pointOf(const std::array<glm::vec3, 3>& t, const glm::vec3& weights) {
+    return t[0] * weights.x + t[1] * weights.y + t[2] * weights.z;
+}
+
+} // namespace
+
+// Walks the sequence forward once and notes the triangles around every edge before it collapses.
+struct SuccessiveMap::Replay {
+    SuccessiveMap& map;
+    const CollapseSequence& sequence;
+    std::vector<std::vector<std::uint32_t>> faces_of; // [wedges] with a corner on it
+    std::vector<std::uint32_t> seen;                  // [faces] last step that met it
+    std::vector<std::uint32_t> met;
+    std::vector<std::array<std::uint32_t, 2>> outlived; // {face, step}
+
+    void meet(std::uint32_t wedge, std::uint32_t step) {
+        std::vector<std::uint32_t>& faces = faces_of[wedge];
+        std::erase_if(faces, [&](std::uint32_t f) { return sequence.face_death[f] < step; });
+        for (const std::uint32_t f : faces)
+            if (seen[f] != step) {
+                seen[f] = step;
+                met.push_back(f);
+            }
+    }
+
+    void note(std::uint32_t step) {
+        const bool outlives = std::ranges::any_of(
+            met, [&](std::uint32_t f) { return sequence.face_death[f] > step; });
+        if (!outlives) // nothing left that a point could lie on
+            return;
+        for (const std::uint32_t f : met) {
+            Candidate candidate{f, 0.0f, {}};
+            for (std::size_t k = 0; k < 3; ++k)
+                candidate.corners[k] = map.positions_[map.wedges_[f][k]];
+            const auto& c = candidate.corners;
+            candidate.radius = std::max(glm::length(c[1] - c[0]), glm::length(c[2] - c[0]));
+            map.candidates_.push_back(candidate);
+            if (sequence.face_death[f] > step)
+                outlived.push_back({f, step});
+        }
+    }
+
+    void rename(std::uint32_t wedge) {
+        const std::uint32_t parent = sequence.wedge_parent[wedge];
+        if (parent == kNone)
+            return;
+        for (const std::uint32_t f : faces_of[wedge])
+            std::ranges::replace(map.wedges_[f], wedge, parent);
+        faces_of[parent].insert(
+            faces_of[parent].end(), faces_of[wedge].begin(), faces_of[wedge].end());
+        faces_of[wedge] = {};
+    }
+
+    void run(std::uint32_t last, const JobContext& job) {
+        const ByStep deaths = groupBySteps(sequence.wedge_death, last);
+        const ByStep versions = groupBySteps(sequence.version_step, last);
+        std::vector<std::uint32_t> wedge_of(sequence.version_step.size());
+        for (std::uint32_t w = 0; w + 1 < sequence.version_begin.size(); ++w)
+            for (std::uint32_t v = sequence.version_begin[w]; v < sequence.version_begin[w + 1];
+                 ++v)
+                wedge_of[v] = w;
+        map.candidate_begin_.assign(1, 0);
+        for (std::uint32_t step = 1; step <= last; ++step) {
+            if (step % 1024 == 0 && job.stopRequested())
+                return;
+            met.clear();
+            for (const std::uint32_t wedge : deaths.at(step))
+                meet(wedge, step);
+            for (const std::uint32_t version : versions.at(step))
+                meet(wedge_of[version], step);
+            note(step);
+            map.candidate_begin_.push_back(map.candidates_.size());
+            for (const std::uint32_t wedge : deaths.at(step))
+                rename(wedge);
+            for (const std::uint32_t version : versions.at(step))
+                map.positions_[wedge_of[version]] = sequence.version_position[version];
+        }
+    }
+};
+
+SuccessiveMap::SuccessiveMap(const CollapseSequence& sequence,
+                             const Submesh& submesh,
+                             std::uint32_t step,
+                             const JobContext& job)
+    : sequence_(sequence), wedges_(sequence.complex.faces) {
+    const Complex& complex = sequence.complex;
+    originals_.resize(complex.wedge_source.size());
+    for (std::size_t p = 0; p + 1 < complex.wedge_begin.size(); ++p)
+        for (std::uint32_t w = complex.wedge_begin[p]; w < complex.wedge_begin[p + 1]; ++w)
+            originals_[w] = submesh.primitives[p].geometry->positions[complex.wedge_source[w]];
+    positions_ = originals_;
+    Replay replay{*this, sequence, {}, {}, {}, {}};
+    replay.faces_of.resize(originals_.size());
+    for (std::uint32_t f = 0; f < complex.faces.size(); ++f)
+        for (const std::uint32_t wedge : complex.faces[f])
+            replay.faces_of[wedge].push_back(f);
+    replay.seen.assign(complex.faces.size(), 0);
+    replay.run(step, job);
+    split_begin_.assign(complex.faces.size() + 1, 0);
+    for (const auto& [face, at] : replay.outlived)
+        ++split_begin_[face + 1];
+    std::partial_sum(split_begin_.begin(), split_begin_.end(), split_begin_.begin());
+    splits_.resize(replay.outlived.size());
+    std::vector<std::size_t> to(split_begin_.begin(), split_begin_.end() - 1);
+    for (const auto& [face, at] : replay.outlived)
+        splits_[to[face]++] = at;
+    alive_begin_.push_back(0);
+    for (std::size_t p = 0; p + 1 < complex.face_begin.size(); ++p) {
+        for (std::uint32_t f = complex.face_begin[p]; f < complex.face_begin[p + 1]; ++f)
+            if (sequence.face_death[f] > step)
+                alive_.push_back(f);
+        alive_begin_.push_back(static_cast<std::uint32_t>(alive_.size()));
+    }
+}
+
+std::array<glm::vec3, 3> SuccessiveMap::triangle(std::uint32_t face) const {
+    const auto& wedges = wedges_[face];
+    return {positions_[wedges[0]], positions_[wedges[1]], positions_[wedges[2]]};
+}
+
+SuccessiveMap::Hit
+SuccessiveMap::trace(std::uint32_t face, const glm::vec3& point, const glm::vec3& normal) const {
+    constexpr float kOtherSide = 1e-6f; // of the squared size: decides between coincident faces
+    std::uint32_t before = kNone;       // only splits of earlier steps are left
+    for (;;) {
+        const auto begin = splits_.begin() + static_cast<std::ptrdiff_t>(split_begin_[face]);
+        const auto end = splits_.begin() + static_cast<std::ptrdiff_t>(split_begin_[face + 1]);
+        const auto after = std::lower_bound(begin, end, before);
+        if (after == begin)
+            break;
+        before = *(after - 1);
+        float best2 = std::numeric_limits<float>::infinity();
+        for (std::size_t i = candidate_begin_[before - 1]; i < candidate_begin_[before]; ++i) {
+            const Candidate& candidate = candidates_[i];
+            const auto& c = candidate.corners;
+            const float reach = glm::length(point - c[0]) - candidate.radius;
+            if (reach > 0.0f && reach * reach >= best2)
+                continue;
+            const glm::vec3 off = point - pointOf(c, closestOn(point, c));
+            float distance2 = glm::dot(off, off);
+            if (glm::dot(glm::cross(c[1] - c[0], c[2] - c[0]), normal) < 0.0f)
+                distance2 += kOtherSide * candidate.radius * candidate.radius;
+            if (distance2 < best2) {
+                best2 = distance2;
+                face = candidate.face;
+            }
+        }
+    }
+    const auto& corners = sequence_.complex.faces[face];
+    return {
+        face,
+        closestOn(point, {originals_[corners[0]], originals_[corners[1]], originals_[corners[2]]})};
+}
+
+} // namespace lodestone
