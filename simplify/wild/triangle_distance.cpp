@@ -32,6 +32,11 @@ std::array<glm::dvec3, 2> closestOfSegments(const glm::dvec3& p,
     return {p + u * s, q + v * t};
 }
 
+glm::dvec3 closestPoint(const glm::dvec3& point, const Triangle& triangle) {
+    const glm::dvec3 weights = closestWeights(point, triangle);
+    return triangle[0] * weights.x + triangle[1] * weights.y + triangle[2] * weights.z;
+}
+
 // Where a segment crosses a triangle's inside; nothing where they are parallel.
 std::optional<glm::dvec3> crossing(const glm::dvec3& p, const glm::dvec3& q, const Triangle& t) {
     const glm::dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);

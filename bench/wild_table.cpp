@@ -1,0 +1,269 @@
+#include "bench/wild_table.h"
+
+#include "bench/quality.h"
+#include "bench/table.h"
+#include "simplify/algorithm.h"
+#include "simplify/measure/color_distance.h"
+
+#include <array>
+#include <cmath>
+#include <fmt/core.h>
+#include <iostream>
+
+namespace lodestone::bench {
+
+namespace {
+
+constexpr std::array kRatios{0.1, 0.01, 0.001};
+
+// Real models of many parts; the first ones are those with pictures on them, too.
+constexpr std::array kManyParts{"textured/office/office.obj",
+                                "textured/oaktree/oaktree.gltf",
+                                "textured/anisotropy-barn-lamp/AnisotropyBarnLamp.gltf",
+                                "textured/PalmTree/PalmTree.gltf",
+                                "textured/DamagedHelmet/DamagedHelmet.glb",
+                                "textured/collapsed_fire_station/collapsed_fire_station.dae",
+                                "textured/greySnapper/greySnapper_vertColor.glb",
+                                "meshes/spider-stl-ascii/Spider_ascii.stl",
+                                "meshes/wuson-stl/Wuson.stl",
+                                "meshes/p47d-3ds/p47d.3ds",
+                                "meshes/jeep-3ds/jeep1.3ds",
+                                "meshes/monkeys_on_landscape/"
+                                "monkeys_on_landscape_binary_with_normals_etc.ply",
+                                "instanced/cafe/cafe.dae",
+                                "instanced/VirtualCity/VC.gltf"};
+
+constexpr std::array kPictures{"textured/DamagedHelmet/DamagedHelmet.glb",
+                               "textured/Duck/Duck.glb",
+                               "textured/oaktree/oaktree.gltf",
+                               "textured/greySnapper/greySnapper_vertColor.glb",
+                               "textured/PalmTree/PalmTree.gltf",
+                               "textured/collapsed_fire_station/collapsed_fire_station.dae",
+                               "instanced/cafe/cafe.dae",
+                               "instanced/VirtualCity/VC.gltf"};
+
+struct Method {
+    const char* name;
+    const char* algorithm;
+    ParameterValues parameters;
+};
+
+// The first is what the others are compared with, the second the weaker of the paper's baselines.
+std::vector<Method> methods() {
+    const ParameterValues shape{{"uv-weight", 0.0}, {"normal-weight", 0.0}, {"color-weight", 0.0}};
+    ParameterValues without_border = shape;
+    without_border["boundary"] = 0.0;
+    return {{"Quadric", "quadric", shape},
+            {"Quadric, no border term", "quadric", without_border},
+            {"Wild", "wild", {{"scope", 2.0}}},
+            {"Wild, ε 0", "wild", {{"scope", 2.0}, {"epsilon", 0.0}}},
+            {"Wild, ε 0.02 %", "wild", {{"scope", 2.0}, {"epsilon", 0.02}}},
+            {"Wild, ε 0.5 %", "wild", {{"scope", 2.0}, {"epsilon", 0.5}}},
+            {"Wild, near vertices", "wild", {{"scope", 2.0}, {"virtual-edges", 1.0}}},
+            {"Wild, no area term", "wild", {{"scope", 2.0}, {"area", 0.0}}}};
+}
+
+Result<LodSourcePtr> prepared(const ScenePtr& scene, const Method& method) {
+    return findAlgorithm(method.algorithm)->prepare(scene, method.parameters, {}, {});
+}
+
+// Of one method on one model at one ratio, in % of the diagonal.
+using Cell = std::array<double, 3>; // Hausdorff, mean, rms
+
+struct Sums { // of logarithms of ratios to the two baselines
+    std::array<Cell, 2> logs{};
+    int count = 0;
+};
+
+Result<Cell> measured(const Scene& original, const LodSource& source, double ratio) {
+    const Lod lod = lodAtTriangles(source, ratio * static_cast<double>(source.trianglesAt(0)));
+    const Lod full = fullLod(original);
+    const Result<Distance> d =
+        measureDistance({&original, &full}, {source.scene().get(), &lod}, {100'000, 1}, {});
+    if (!d)
+        return tl::unexpected(d.error());
+    return Cell{d->hausdorff, d->mean, d->rms};
+}
+
+using Grid = std::vector<std::array<Sums, kRatios.size()>>; // [methods][ratios]
+
+Result<std::string> measureModel(const ScenePtr& scene, const char* name, Grid& grid) {
+    const std::vector<Method> all = methods();
+    std::array<std::array<Cell, kRatios.size()>, 2> base{};
+    std::string rows;
+    for (std::size_t m = 0; m < all.size(); ++m) {
+        const Result<LodSourcePtr> source = prepared(scene, all[m]);
+        if (!source)
+            return tl::unexpected(source.error());
+        rows += fmt::format("| {} | {} |", m == 0 ? name : "", all[m].name);
+        for (std::size_t r = 0; r < kRatios.size(); ++r) {
+            const Result<Cell> cell = measured(*scene, **source, kRatios[r]);
+            if (!cell)
+                return tl::unexpected(cell.error());
+            rows += fmt::format(" {:.3g} / {:.3g} |", (*cell)[0], (*cell)[1]);
+            if (m < 2)
+                base[m][r] = *cell;
+            if (m == 0)
+                continue;
+            Sums& sums = grid[m][r];
+            ++sums.count;
+            for (std::size_t b = 0; b < 2; ++b)
+                for (std::size_t k = 0; k < 3; ++k)
+                    sums.logs[b][k] +=
+                        std::log(std::max((*cell)[k], 1e-6) / std::max(base[b][r][k], 1e-6));
+        }
+        rows += "\n";
+    }
+    return rows;
+}
+
+std::string meansText(const Grid& grid) {
+    std::string text =
+        "\n| method | against | maximum | mean | mean square |\n|---|---|---|---|---|\n";
+    const std::vector<Method> all = methods();
+    for (std::size_t m = 1; m < all.size(); ++m)
+        for (std::size_t b = 0; b < (m == 1 ? 1u : 2u); ++b) {
+            std::array<std::string, 3> columns;
+            for (const Sums& sums : grid[m])
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const double mean = sums.logs[b][k] / std::max(sums.count, 1);
+                    columns[k] += fmt::format("{}{:.2f}",
+                                              columns[k].empty() ? "" : " / ",
+                                              std::exp(k == 2 ? 2.0 * mean : mean));
+                }
+            text += fmt::format("| {} | {} | {} | {} | {} |\n",
+                                all[m].name,
+                                all[b].name,
+                                columns[0],
+                                columns[1],
+                                columns[2]);
+        }
+    return text;
+}
+
+int addDistances(WildTable& table, Inputs& inputs, const TitleFilter& wanted) {
+    Grid grid(methods().size());
+    std::string rows;
+    int code = 0;
+    for (const char* name : kManyParts) {
+        const Result<ScenePtr> scene = inputs.model(name);
+        if (!wanted(name) || (scene && !*scene))
+            continue;
+        std::cerr << "wild: " << name << '\n';
+        const Result<std::string> text =
+            scene ? measureModel(*scene, name, grid) : tl::unexpected(scene.error());
+        if (!text) {
+            std::cerr << "lodestone_bench: " << text.error().message << '\n';
+            code = exitCode(text.error().kind);
+            continue;
+        }
+        rows += *text;
+    }
+    table.markdown +=
+        "\n## Wild: models of many parts\n\nMaximum / mean distance in % of the "
+        "diagonal at 10, 1 and 0.1 % of the triangles, all instances expanded, "
+        "100,000 samples a side; at 0.1 % floors hold models of many materials back "
+        "alike. Then geometric means over the models of the ratio to two "
+        "baselines.\n\n| model | method | 10 % | 1 % | 0.1 % |\n|---|---|---|---|---|\n" +
+        rows + meansText(grid);
+    return code;
+}
+
+// Colour of a LOD with its textures kept or transferred.
+Result<double> colorOf(const Scene& original, const LodSource& source, double ratio) {
+    Lod lod = lodAtTriangles(source, ratio * static_cast<double>(source.trianglesAt(0)));
+    ScenePtr scene = source.scene();
+    if (source.transfersTextures()) {
+        Result<BakedScene> baked = source.transferred(lod, {});
+        if (!baked)
+            return tl::unexpected(baked.error());
+        scene = std::move(baked->scene);
+        lod = fullLod(*scene);
+    }
+    const Lod full = fullLod(original);
+    const Result<ColorDistance> distance =
+        measureColorDistance({&original, &full}, {scene.get(), &lod}, {100'000, 1}, {});
+    if (!distance)
+        return tl::unexpected(distance.error());
+    return distance->mean;
+}
+
+Result<std::string> colorRow(const ScenePtr& scene, const char* name) {
+    const Method kept{"", "quadric", {}};
+    const Method moved{"", "wild", {{"scope", 2.0}, {"texture", 1.0}, {"atlas", 1024.0}}};
+    const Result<LodSourcePtr> keeps = prepared(scene, kept);
+    const Result<LodSourcePtr> transfers = prepared(scene, moved);
+    if (!keeps || !transfers)
+        return tl::unexpected(keeps ? transfers.error() : keeps.error());
+    std::string row = fmt::format("| {} |", name);
+    for (const double ratio : kRatios) {
+        const Result<double> before = colorOf(*scene, **keeps, ratio);
+        const Result<double> after = colorOf(*scene, **transfers, ratio);
+        if (!before || !after)
+            return tl::unexpected(before ? after.error() : before.error());
+        row += fmt::format(" {:.4f} : {:.4f} ({:.2f}) |", *after, *before, *after / *before);
+    }
+    return row + "\n";
+}
+
+int addColors(WildTable& table, Inputs& inputs, const TitleFilter& wanted) {
+    table.markdown += "\n## Wild: texture transfer\n\nSymmetric colour Chamfer distance (0..√3), "
+                      "transferred : kept by attribute-aware Quadric (ratio); atlases of 1024 "
+                      "pixels.\n\n| model | 10 % | 1 % | 0.1 % |\n|---|---|---|---|\n";
+    int code = 0;
+    for (const char* name : kPictures) {
+        const Result<ScenePtr> scene = inputs.model(name);
+        if (!wanted(name) || (scene && !*scene))
+            continue;
+        std::cerr << "texture transfer: " << name << '\n';
+        const Result<std::string> row =
+            scene ? colorRow(*scene, name) : tl::unexpected(scene.error());
+        if (row) {
+            table.markdown += *row;
+            continue;
+        }
+        std::cerr << "lodestone_bench: " << row.error().message << '\n';
+        code = exitCode(row.error().kind);
+    }
+    return code;
+}
+
+// CPU seconds of Quadric and Wild on growing meshes.
+int addTimes(WildTable& table) {
+    table.markdown += "\n## Wild: time\n\nCPU of the whole sequence on one thread, a bumpy sphere "
+                      "(attributes do not count).\n\n| triangles | Quadric | Wild | ratio |\n"
+                      "|---|---|---|---|\n";
+    for (const std::uint32_t side : {46u, 91u, 182u}) {
+        const ScenePtr scene = displacedSphere(side);
+        std::vector<Contender> contenders;
+        for (const std::size_t m : {std::size_t{0}, std::size_t{2}})
+            contenders.push_back({[scene, m]() -> Result<std::shared_ptr<const void>> {
+                Result<LodSourcePtr> source = prepared(scene, methods()[m]);
+                if (!source)
+                    return tl::unexpected(source.error());
+                return std::shared_ptr<const void>(*source);
+            }});
+        const auto seconds = timeInTurns(contenders, 3);
+        if (!seconds) {
+            std::cerr << "lodestone_bench: " << seconds.error().message << '\n';
+            return exitCode(seconds.error().kind);
+        }
+        table.markdown += fmt::format("| {} | {} | {} | {:.2f} |\n",
+                                      countText(countScene(*scene).triangles),
+                                      secondsText(spreadOf((*seconds)[0])),
+                                      secondsText(spreadOf((*seconds)[1])),
+                                      medianRatio((*seconds)[1], (*seconds)[0]));
+    }
+    return 0;
+}
+
+} // namespace
+
+int addWildTable(WildTable& table, Inputs& inputs, const TitleFilter& wanted) {
+    const int distances = addDistances(table, inputs, wanted);
+    const int colors = addColors(table, inputs, wanted);
+    const int times = addTimes(table);
+    return std::max({distances, colors, times});
+}
+
+} // namespace lodestone::bench
