@@ -253,13 +253,14 @@ void WildMesh::dropDoubles() {
     const std::uint32_t near_a = nextStamp();
     for (const RingFace& face : ring_a_)
         points_[face.next].mark = points_[face.last].mark = near_a;
-    std::erase_if(ring_b_, [&](const RingFace& face) {
+    const auto dropped = std::ranges::remove_if(ring_b_, [&](const RingFace& face) {
         if (points_[face.next].mark != near_a || points_[face.last].mark != near_a ||
             !isDouble(face))
             return false;
         dying_.push_back(face.face);
         return true;
     });
+    ring_b_ = ring_b_.first(ring_b_.size() - dropped.size());
 }
 
 // Borders near a collapse have changed: those of its neighbours are reckoned anew when needed.
@@ -282,12 +283,12 @@ bool WildMesh::collapse(std::uint32_t a, std::uint32_t b, Strictness strictness)
     const Float3 from_b = points_[b].position;
     const Float3 half = (from_b - from_a) * 0.5f;
     gatherRings(a, b);
-    // Volume means something where topology does; towardsVolume() also readies the rings' areas.
+    // Volume means something where topology does; towardsVolume() also readies what the next check
+    // needs.
     const Float3 at =
         strictness == Strictness::Anything ? placement.at : towardsVolume(a, b, placement.at, half);
     const Float3 target = from_a + half + at;
-    if (strictness != Strictness::Anything &&
-        !(staysUpright(ring_a_, target) && staysUpright(ring_b_, target)))
+    if (strictness != Strictness::Anything && !staysUpright(target))
         return false;
     if (strictness == Strictness::Manifold && !keepsTopology(a, b))
         return false;
