@@ -1,5 +1,5 @@
-// lodestone_bench: every promised figure, peers beside us, the six point-cloud methods, and the
-// micro-benchmarks, as Markdown.
+// lodestone_bench: every promised figure, peers beside us, the six point-cloud methods, Wild, and
+// the micro-benchmarks, as Markdown.
 #include "bench/bench_run.h"
 #include "bench/program_main.h"
 #include "bench/rows.h"
@@ -40,6 +40,7 @@ void addWhat(CLI::App& app, BenchOptions& options) {
     app.add_flag("--attributes", options.attributes, "textured models (default: every part)");
     app.add_flag(
         "--pointcloud", options.pointcloud, "the six point-cloud methods (default: every part)");
+    app.add_flag("--wild", options.wild, "Wild and texture transfer (default: every part)");
     app.add_flag("--micro", options.micro, "the micro-benchmarks (default: every part)");
     app.add_flag("--quick", options.quick, "one round instead of five, fewer inputs");
     app.add_flag("--again", options.again, "measure what is kept, too");

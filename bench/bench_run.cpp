@@ -7,6 +7,7 @@
 #include "bench/report.h"
 #include "bench/rows_pointcloud.h"
 #include "bench/sheet_json.h"
+#include "bench/wild_table.h"
 
 #include <algorithm>
 #include <fmt/core.h>
@@ -128,6 +129,13 @@ measurePointCloud(const BenchOptions& options, Inputs& inputs, const TitleFilter
              text.str()});
 }
 
+Result<std::optional<Json>> measureWild(Inputs& inputs, const TitleFilter& wanted) {
+    WildTable table;
+    if (addWildTable(table, inputs, wanted) != 0)
+        return fail(ErrorKind::Failed, "some models could not be measured");
+    return textJson({"", table.markdown});
+}
+
 Result<std::optional<Json>> measureHotPaths([[maybe_unused]] const BenchOptions& options) {
     TextSheet sheet;
     sheet.tables = "\n## Hot paths\n\nCPU time of one iteration on one thread, median (min–max) "
@@ -181,7 +189,7 @@ private:
     // Whether a flag was given, or none at all.
     bool asked(bool flag) const {
         return flag || !(options_.figures || options_.peers || options_.attributes ||
-                         options_.pointcloud || options_.micro);
+                         options_.pointcloud || options_.wild || options_.micro);
     }
 
     // what: "5 rounds".
@@ -263,6 +271,9 @@ private:
         });
         planText("six point-cloud methods" + those, asked(options_.pointcloud), [=, this] {
             return measurePointCloud(options_, inputs_, wanted_title);
+        });
+        planText("Wild" + those, asked(options_.wild), [=, this] {
+            return measureWild(inputs_, wanted_title);
         });
         planText("hot paths", asked(options_.micro) && wanted("hot paths"), [this] {
             return measureHotPaths(options_);

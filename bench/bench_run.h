@@ -16,10 +16,11 @@ struct BenchOptions {
     std::string sheets; // folder for contact sheets of textured models; empty: none
     std::vector<std::string> parameters; // NAME=VALUE, of ours for textured models
     int rounds = 5;
-    bool figures = false; // none of these five: all of them
+    bool figures = false; // none of these six: all of them
     bool peers = false;
     bool attributes = false;
     bool pointcloud = false;
+    bool wild = false;
     bool micro = false;
     bool quick = false; // one round, fewer inputs, samples and pixels
     bool again = false; // measure what is kept, too
