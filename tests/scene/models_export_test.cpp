@@ -154,15 +154,15 @@ protected:
 void expectSameShape(const Scene& before, const Scene& after, const Way& way) {
     const SceneCounts was = countScene(before);
     const SceneCounts is = countScene(after);
-    if (way.compression == Compression::Draco) // has no triangles with two equal corners
+    if (way.compression == Compression::Draco) { // has no triangles with two equal corners
         EXPECT_LE(is.triangles, was.triangles);
-    else
+    } else {
         EXPECT_EQ(is.triangles, was.triangles);
-    if (way.instancing != Instancing::Expand) {
-        EXPECT_EQ(is.instances, was.instances);
-        if (way.compression != Compression::Draco)
+        if (way.instancing != Instancing::Expand)
             EXPECT_EQ(is.unique_triangles, was.unique_triangles);
     }
+    if (way.instancing != Instancing::Expand)
+        EXPECT_EQ(is.instances, was.instances);
     const Bounds old_bounds = worldBounds(before);
     const Bounds new_bounds = worldBounds(after);
     const double share = way.compression == Compression::None ? 1e-5 : 3e-4;
