@@ -8,10 +8,10 @@ namespace lodestone {
 Result<double> parseNumber(std::string_view option, std::string_view text, double low, double high);
 Result<std::uint64_t>
 parseCount(std::string_view option, std::string_view text, std::uint64_t low, std::uint64_t high);
-Result<Ordering> parseOrdering(std::string_view text);     // cost|triangle|byte
-Result<Instancing> parseInstancing(std::string_view text); // auto|nodes|gpu|expand
+Result<Ordering> parseOrdering(std::string_view text);       // cost|triangle|byte
+Result<Instancing> parseInstancing(std::string_view text);   // auto|nodes|gpu|expand
 Result<Compression> parseCompression(std::string_view text); // none|quantize|meshopt|draco
-Result<OrbitView> parseCamera(std::string_view text);      // AZ,EL,DIST
+Result<OrbitView> parseCamera(std::string_view text);        // AZ,EL,DIST
 // NAME=VALUE
 Result<std::pair<std::string, std::string>> parseAssignment(std::string_view text);
 std::vector<std::string> splitList(std::string_view text, char separator);

@@ -11,6 +11,7 @@ class PictureTexture {
 public:
     // Row 0 of the texture is the bottom of the picture, as with View. Nothing for no pixels.
     void upload(const Pixels& pixels);
+
     TextureHandle texture() const { return texture_.name(); } // 0 before the first upload
 
 private:

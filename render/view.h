@@ -48,8 +48,8 @@ struct ViewOptions {
     float light_azimuth_rad = -0.7f;
     float light_elevation_rad = 0.85f;
     float exposure = 1.0f;
-    float shininess = 1.0f; // > 0; divides every roughness
-    bool grid = false;      // floor under the scene's bounds
+    float shininess = 1.0f;                  // > 0; divides every roughness
+    bool grid = false;                       // floor under the scene's bounds
     std::array<glm::vec3, 9> value_colors{}; // sRGB, evenly spaced from 0 to 1
     float value_full = 1.0f;                 // > 0; the value that has the last colour
     std::vector<Highlight> highlighted;      // what the scene does not have is ignored

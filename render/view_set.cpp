@@ -233,12 +233,9 @@ Result<MeasureReport> ViewSet::measure(std::uint32_t key, const MeasureOptions& 
     if (found == items_.end() || !found->second.complete)
         return fail(ErrorKind::Usage, "this lane has no picture yet; wait for it");
     Item& item = found->second;
-    return item.view.measure({&scenes_.at(item.scene),
-                              &item.shown().handle,
-                              item.camera,
-                              item.options,
-                              item.size},
-                             options);
+    return item.view.measure(
+        {&scenes_.at(item.scene), &item.shown().handle, item.camera, item.options, item.size},
+        options);
 }
 
 Result<Pixels> ViewSet::readPixels(std::uint32_t key) const {

@@ -25,7 +25,7 @@ struct Complex {
     // by component. Empty: none.
     std::vector<std::array<std::uint32_t, 2>> virtual_edges;
     std::vector<std::uint32_t> virtual_begin; // [components + 1] or empty
-    std::uint32_t dropped_faces = 0;            // degenerate after welding, or exact doubles
+    std::uint32_t dropped_faces = 0;          // degenerate after welding, or exact doubles
 
     std::size_t componentCount() const { return component_begin.size() - 1; }
 

@@ -158,11 +158,13 @@ void expectSameShape(const Scene& before, const Scene& after, const Way& way) {
         EXPECT_LE(is.triangles, was.triangles);
     } else {
         EXPECT_EQ(is.triangles, was.triangles);
-        if (way.instancing != Instancing::Expand)
+        if (way.instancing != Instancing::Expand) {
             EXPECT_EQ(is.unique_triangles, was.unique_triangles);
+        }
     }
-    if (way.instancing != Instancing::Expand)
+    if (way.instancing != Instancing::Expand) {
         EXPECT_EQ(is.instances, was.instances);
+    }
     const Bounds old_bounds = worldBounds(before);
     const Bounds new_bounds = worldBounds(after);
     const double share = way.compression == Compression::None ? 1e-5 : 3e-4;
