@@ -106,14 +106,18 @@ protected:
         double percent = 100.0;   // per unit of the scene
     };
 
-    // Expects equal means of samples.
-    static Measured expectEqualMeans(const LodView& a, const LodView& b, const char* name) {
-        constexpr unsigned kSamples = 200'000;
-        const Result<Distance> ours = measureDistance(a, b, {}, {});
+    // Expects equal means of samples; as many on either side.
+    static Measured expectEqualMeans(const LodView& a,
+                                     const LodView& b,
+                                     const char* name,
+                                     unsigned samples = 200'000) {
+        DistanceOptions options;
+        options.samples = std::max<std::uint64_t>(options.samples, samples);
+        const Result<Distance> ours = measureDistance(a, b, options, {});
         EXPECT_TRUE(ours) << name;
         Measured measured{ours.value_or(Distance{}), meshOf(a), meshOf(b)};
-        const OneSided there = sampled(measured.mesh_a, measured.mesh_b, kSamples);
-        const OneSided back = sampled(measured.mesh_b, measured.mesh_a, kSamples);
+        const OneSided there = sampled(measured.mesh_a, measured.mesh_b, samples);
+        const OneSided back = sampled(measured.mesh_b, measured.mesh_a, samples);
         measured.percent = 100.0 / robustWorldBounds(*a.scene).diagonal();
         measured.sampled_max = measured.percent * std::max(there.max, back.max);
         const double mean = measured.percent * 0.5 * (there.mean + back.mean);
@@ -167,7 +171,8 @@ TEST_F(IndependentDistance, AgreesOnAnInstancedScene) {
     expectEqualMeasures(simplified(*chair, "ias", 0.2), "chair at 20 %");
 }
 
-// CGAL encloses the maximum of 79,148 triangles in seconds, that of 1,254,696 not in an hour.
+// CGAL encloses the maximum of 79,148 triangles in seconds; of 1,254,696 it takes too long for a
+// test.
 TEST_F(IndependentDistance, AgreesOnOneInstanceOfEachSubmeshOfTheVillage) {
     const Result<ScenePtr> village = generateScene("village");
     ASSERT_TRUE(village);
@@ -189,6 +194,7 @@ TEST_F(IndependentDistance, AgreesOnTheMeansOfTheWholeVillage) {
     ASSERT_TRUE(village);
     const Pair pair = simplified(*village, "ias", 0.2);
     const Lod full = fullLod(*pair.original);
+    // Its root mean square comes from few far parts: fewer samples scatter by more than is asked.
     expectEqualMeans(
-        {pair.original.get(), &full}, {pair.scene.get(), &pair.lod}, "village at 20 %");
+        {pair.original.get(), &full}, {pair.scene.get(), &pair.lod}, "village at 20 %", 4'000'000);
 }
