@@ -21,7 +21,7 @@ struct ByteModel::Impl {
           ranges(instanceRanges(*scene)) {
         if (expansion)
             findMergedParts();
-        if (isEstimated(options))
+        if (isPacked(options))
             learnPacking();
     }
 

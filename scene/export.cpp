@@ -153,7 +153,7 @@ struct Target {
 // plan, layout and lod must outlive the content.
 Result<Content>
 contentOf(const ExportPlan& plan, const Layout& layout, const Lod& lod, const fs::path& path) {
-    if (isEstimated(plan.options)) {
+    if (isPacked(plan.options)) {
         Result<PackedDocument> packed = packedExport(plan, layout, lod, bufferFileName(path));
         if (!packed)
             return tl::unexpected(packed.error());

@@ -31,9 +31,15 @@ struct ExportOptions {
     bool operator==(const ExportOptions&) const = default;
 };
 
-// Whether a size is only known for sure once the LOD is packed.
-constexpr bool isEstimated(const ExportOptions& options) {
+// Whether bytes are packed by an entropy coder.
+constexpr bool isPacked(const ExportOptions& options) {
     return options.compression == Compression::Meshopt || options.compression == Compression::Draco;
+}
+
+// Whether a size is only known for sure once the LOD is written: packed, or quantised on a grid
+// that is wider where survivors of removal have grown, which takes some digits more or fewer.
+constexpr bool isEstimated(const ExportOptions& options) {
+    return options.compression != Compression::None;
 }
 
 struct ExportReport {

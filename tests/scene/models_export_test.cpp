@@ -136,7 +136,7 @@ protected:
         }
         EXPECT_EQ(report->bytes, folderBytes(folder)) << path;
         const std::uint64_t predicted = ByteModel(scene, options).bytes(shapeOf(*scene, lod));
-        const double allowed = isEstimated(options) ? 0.1 * static_cast<double>(report->bytes) : 0;
+        const double allowed = isPacked(options) ? 0.1 * static_cast<double>(report->bytes) : 0;
         EXPECT_NEAR(static_cast<double>(predicted), static_cast<double>(report->bytes), allowed)
             << path;
         const auto again = importScene(path, {});

@@ -11,6 +11,8 @@ import window_test as base
 from window import differing_share, pixels_of, xdotool
 from window_test import LANES, open_chair
 
+DOUBLE_CLICK_S = 0.5  # clicks that follow within less are double clicks
+
 
 def view(window, algorithm):
     return f"View {window.lane_id(algorithm)}/picture"
@@ -90,6 +92,7 @@ def test_shift_click_adds_and_takes_away_and_a_drag_selects_nothing(folder):
         window.move(round(x + place[0] * width), round(y + place[1] * height))
         window.wait_frames(2)
         for expected in (1, 0):
+            time.sleep(DOUBLE_CLICK_S)  # two single clicks, not a double one
             xdotool("keydown", "shift")
             window.wait_frames(2)
             xdotool("click", "1")
