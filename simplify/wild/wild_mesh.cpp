@@ -253,14 +253,15 @@ void WildMesh::dropDoubles() {
     const std::uint32_t near_a = nextStamp();
     for (const RingFace& face : ring_a_)
         points_[face.next].mark = points_[face.last].mark = near_a;
-    const auto dropped = std::ranges::remove_if(ring_b_, [&](const RingFace& face) {
+    const auto is_dropped = [&](const RingFace& face) {
         if (points_[face.next].mark != near_a || points_[face.last].mark != near_a ||
             !isDouble(face))
             return false;
         dying_.push_back(face.face);
         return true;
-    });
-    ring_b_ = ring_b_.first(ring_b_.size() - dropped.size());
+    };
+    const auto kept_end = std::remove_if(ring_b_.begin(), ring_b_.end(), is_dropped);
+    ring_b_ = ring_b_.first(static_cast<std::size_t>(kept_end - ring_b_.begin()));
 }
 
 // Borders near a collapse have changed: those of its neighbours are reckoned anew when needed.
