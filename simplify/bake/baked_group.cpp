@@ -71,7 +71,7 @@ TriangleFrame frameOf(const BakeSource& source, const BakedTriangle& triangle, b
         glm::vec3& normal = frame.normals[k];
         normal = flat;
         if (normals) {
-            const std::uint32_t vertex = geometry.indices[3 * triangle.face + k];
+            const std::uint32_t vertex = geometry.indices[std::size_t{3} * triangle.face + k];
             for (int c = 0; c < 3; ++c)
                 normal[c] = attributeValue(*normals, vertex, static_cast<std::size_t>(c));
             normal = unitOr(normal, flat);

@@ -183,7 +183,7 @@ void joinComponents(Complex& complex,
     for (std::uint32_t c = 0; c < parent.size(); ++c)
         joined[c] = rootOf(parent, c) == c ? count++ : joined[rootOf(parent, c)];
     // Counting sorts: faces and edges by joined component.
-    const auto sortInto = [&](auto& begin, std::size_t items, auto component, auto place) {
+    const auto sort_into = [&](auto& begin, std::size_t items, auto component, auto place) {
         begin.assign(count + 1, 0);
         for (std::size_t i = 0; i < items; ++i)
             ++begin[component(i) + 1];
@@ -192,7 +192,7 @@ void joinComponents(Complex& complex,
         for (std::size_t i = 0; i < items; ++i)
             place(at[component(i)]++, i);
     };
-    sortInto(
+    sort_into(
         complex.component_begin,
         complex.faces.size(),
         [&](std::size_t f) { return joined[component_of_face[f]]; },
@@ -200,7 +200,7 @@ void joinComponents(Complex& complex,
             complex.component_faces[to] = static_cast<std::uint32_t>(f);
         });
     const std::vector<std::array<std::uint32_t, 2>> edges = complex.virtual_edges;
-    sortInto(
+    sort_into(
         complex.virtual_begin,
         edges.size(),
         [&](std::size_t e) { return joined[component_of_vertex[edges[e][0]]]; },
