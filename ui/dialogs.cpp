@@ -89,6 +89,7 @@ std::string compressionName(Compression compression) {
 void compressionCombo(const Ui& ui, const PanelInput& input) {
     ExportOptions options = input.document.export_options;
     std::vector<std::string> names;
+    names.reserve(kCompressions.size());
     for (const Compression compression : kCompressions)
         names.push_back(compressionName(compression));
     const auto selected = std::ranges::find(kCompressions, options.compression);

@@ -8,6 +8,12 @@ namespace lodestone {
 
 namespace {
 
+// What Dear ImGui calls a texture.
+ImTextureID textureId(TextureHandle texture) {
+    // NOLINTNEXTLINE(performance-no-int-to-ptr)
+    return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture));
+}
+
 constexpr double kPictureBudgetMs = 25.0;
 constexpr double kSoftwareMsPerTriangle = 0.0002; // llvmpipe on two cores
 constexpr std::chrono::milliseconds kRest{150};   // no input for so long: refine
@@ -107,9 +113,7 @@ void LanePictures::compare(Session& session, std::span<const ViewSet::Picture> d
             continue;
         picture.draft = picture.draft || !difference.current;
         if (difference.texture != 0)
-            // NOLINTNEXTLINE(performance-no-int-to-ptr): what Dear ImGui calls a texture
-            picture.texture =
-                reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(difference.texture));
+            picture.texture = textureId(difference.texture);
     }
 }
 
@@ -213,11 +217,7 @@ bool LanePictures::take(Session& session, const std::vector<ViewSet::Picture>& d
         }
         if (picture.key == kNoLane)
             continue; // the reference
-        shown_.push_back(
-            {picture.key,
-             // NOLINTNEXTLINE(performance-no-int-to-ptr): what Dear ImGui calls a texture
-             reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(picture.texture)),
-             picture.stale || picture.draft});
+        shown_.push_back({picture.key, textureId(picture.texture), picture.stale || picture.draft});
     }
     drafts_.forgetOthers(session.document());
     return changed;
