@@ -18,16 +18,18 @@ constexpr std::string_view kDumpedPointer = "\\u0002lodestone-node:";
 
 } // namespace
 
-std::string fixedWidthNumber(float value, std::size_t width) {
+std::string shortestNumber(float value) {
     std::array<char, 32> digits{};
     // -0 would be an integer token without a fraction, which some readers turn into 0.
     const float written = value == 0.0f ? 0.0f : value;
     const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), written).ptr;
-    const std::string_view text(digits.data(), static_cast<std::size_t>(end - digits.data()));
+    return {digits.data(), end};
+}
+
+std::string fixedWidthNumber(float value, std::size_t width) {
+    const std::string text = shortestNumber(value);
     assert(text.size() <= width);
-    std::string padded(width - std::min(width, text.size()), ' ');
-    padded += text;
-    return padded;
+    return std::string(width - std::min(width, text.size()), ' ') + text;
 }
 
 std::string dumpJson(const json& value) {

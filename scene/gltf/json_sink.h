@@ -19,6 +19,9 @@ constexpr std::uint64_t digitCount(std::uint64_t value) {
     return digits;
 }
 
+// The fewest digits that read back as the same float.
+std::string shortestNumber(float value);
+
 // The shortest text that reads back as the same float, padded with spaces on the left to `width`
 // characters (JSON allows it), so that a size never depends on a value. value: finite.
 std::string fixedWidthNumber(float value, std::size_t width);

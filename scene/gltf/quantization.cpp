@@ -135,7 +135,7 @@ bool isPlainLeaf(const json& node) {
 } // namespace
 
 double shortNumber(double value) {
-    const std::string text = fixedWidthNumber(static_cast<float>(value), 0);
+    const std::string text = shortestNumber(static_cast<float>(value));
     double number = 0.0;
     std::from_chars(text.data(), text.data() + text.size(), number);
     return number;

@@ -27,7 +27,7 @@ constexpr double kRotationTolerance = 0x1p-18;
 constexpr std::uint32_t kFewestRows = 4;
 
 std::string floatText(double value) {
-    return fixedWidthNumber(static_cast<float>(value), 0);
+    return shortestNumber(static_cast<float>(value));
 }
 
 class InstancePlanner {
