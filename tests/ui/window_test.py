@@ -425,7 +425,7 @@ def test_twice_as_dense_nothing_is_cut_off(folder):
             assert x >= 0 and y >= 0 and x + w <= 2561 and y + h <= 1441, f"{name}: {entry['rect']}"
 
 
-def run(name, test, attempts_left):
+def holds(name, test, attempts_left):
     """Whether the rule holds. One attempt more is left to it: X servers lose input now and then."""
     with tempfile.TemporaryDirectory() as folder:
         try:
@@ -437,7 +437,7 @@ def run(name, test, attempts_left):
             return os.environ.get("CI") != "true"
         except Exception:  # a failed rule must not hide the others
             print(f"FAILED  {name}\n{traceback.format_exc()}", flush=True)
-    return attempts_left > 0 and run(name, test, attempts_left - 1)
+    return attempts_left > 0 and holds(name, test, attempts_left - 1)
 
 
 def main(tests):
@@ -451,7 +451,7 @@ def main(tests):
     wanted = sys.argv[2:]
     chosen = [(name, test) for name, test in sorted(tests.items())
               if name.startswith("test_") and (not wanted or name in wanted)]
-    held = [run(name, test, attempts_left=1) for name, test in chosen]
+    held = [holds(name, test, attempts_left=1) for name, test in chosen]
     return 0 if all(held) else 1
 
 
