@@ -1,4 +1,5 @@
 #include "simplify/collapse/component_mesh.h"
+#include "simplify/collapse/key_heap.h"
 
 #include <algorithm>
 #include <bit>
@@ -7,74 +8,6 @@
 namespace lodestone {
 
 namespace {
-
-// A heap of four children a node over 64-bit keys that are all different, the smallest on top. The
-// smallest of four is found without a branch: which one it is cannot be foreseen.
-class KeyHeap {
-public:
-    bool empty() const { return keys_.empty(); }
-
-    void clear() { keys_.clear(); }
-
-    void append(std::uint64_t key) { keys_.push_back(key); } // before arrange()
-
-    void arrange() {
-        for (std::size_t at = keys_.size() / kChildren + 1; at-- > 0;)
-            if (at < keys_.size())
-                sink(at, keys_[at]);
-    }
-
-    void push(std::uint64_t key) {
-        keys_.push_back(key);
-        rise(keys_.size() - 1, key);
-    }
-
-    std::uint64_t pop() {
-        const std::uint64_t top = keys_.front();
-        const std::uint64_t last = keys_.back();
-        keys_.pop_back();
-        if (!keys_.empty())
-            sink(0, last);
-        return top;
-    }
-
-private:
-    static constexpr std::size_t kChildren = 4;
-
-    // Down to a leaf whatever the key, then up: it came from a leaf and mostly ends near one.
-    void sink(std::size_t at, std::uint64_t key) {
-        const std::size_t top = at;
-        std::uint64_t* const keys = keys_.data();
-        const std::size_t count = keys_.size();
-        for (std::size_t child = kChildren * at + 1; child < count; child = kChildren * at + 1) {
-            std::size_t least = child;
-            if (child + kChildren <= count) {
-                const std::size_t a = child + (keys[child + 1] < keys[child] ? 1u : 0u);
-                const std::size_t b = child + 2 + (keys[child + 3] < keys[child + 2] ? 1u : 0u);
-                least = keys[b] < keys[a] ? b : a;
-            } else {
-                for (std::size_t other = child + 1; other < count; ++other)
-                    least = keys[other] < keys[least] ? other : least;
-            }
-            keys[at] = keys[least];
-            at = least;
-        }
-        rise(at, key, top);
-    }
-
-    void rise(std::size_t at, std::uint64_t key, std::size_t top = 0) {
-        while (at > top) {
-            const std::size_t parent = (at - 1) / kChildren;
-            if (keys_[parent] < key)
-                break;
-            keys_[at] = keys_[parent];
-            at = parent;
-        }
-        keys_[at] = key;
-    }
-
-    std::vector<std::uint64_t> keys_;
-};
 
 // A candidate edge, a < b.
 struct Candidate {
