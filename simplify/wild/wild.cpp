@@ -17,12 +17,14 @@ public:
                   const WedgeAttributes& attributes,
                   const CollapseOptions& options,
                   WildOptions wild)
-        : wild_(std::move(wild)), mesh_(complex, request.weights, attributes, options, wild_) {}
+        : wild_(std::move(wild)), mesh_(complex, request.weights, attributes, options, wild_),
+          order_{wild_.checks ? Strictness::Manifold : Strictness::Anything,
+                 options.near_greedy_above,
+                 options.exact_below} {}
 
     bool collapse(std::size_t component, const CollapseWatch& watch) override {
         mesh_.load(component);
-        return collapseLazily(
-            mesh_, wild_.checks ? Strictness::Manifold : Strictness::Anything, watch);
+        return collapseLazily(mesh_, order_, watch);
     }
 
     ComponentMesh& mesh() override { return mesh_; }
@@ -30,6 +32,7 @@ public:
 private:
     WildOptions wild_;
     WildMesh mesh_;
+    LazyGreedyOptions order_;
 };
 
 class WildMethod final : public CollapseMethod {

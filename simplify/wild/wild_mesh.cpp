@@ -5,6 +5,25 @@
 
 namespace lodestone {
 
+namespace {
+
+// Unit direction in which the third corner of a face lies off one of its edges; a sliver's lies
+// nowhere.
+Float3 offEdge(Float3 along, Float3 to_third) {
+    const float length2 = dot(along, along);
+    if (!(length2 > 0.0f))
+        return {};
+    const Float3 off = to_third - along * (dot(to_third, along) / length2);
+    const float off2 = dot(off, off);
+    return off2 > 1e-12f * length2 ? off * (1.0f / std::sqrt(off2)) : Float3{};
+}
+
+std::size_t cornerOf(const std::array<std::uint32_t, 3>& corners, std::uint32_t v) {
+    return corners[0] == v ? 0 : corners[1] == v ? 1 : 2;
+}
+
+} // namespace
+
 WildMesh::WildMesh(const Complex& complex,
                    const InstanceWeights& weights,
                    const WedgeAttributes& attributes,
@@ -21,14 +40,24 @@ void WildMesh::load(std::size_t component) {
 
 std::vector<WildMesh::Edge> WildMesh::edges() {
     std::vector<Edge> all;
+    face_edges_.assign(faces_.size(), {kNone, kNone, kNone});
     for (std::uint32_t v = 0; v < vertexCount(); ++v) {
         const std::uint32_t stamp = nextStamp();
-        for (const std::uint32_t face : facesAround(v))
-            for (const std::uint32_t other : faces_[face])
-                if (other > v && points_[other].mark != stamp) {
+        for (const std::uint32_t face : facesAround(v)) {
+            const Corners& corners = faces_[face];
+            const std::size_t at = cornerOf(corners, v);
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::uint32_t other = corners[k];
+                if (other <= v)
+                    continue;
+                if (points_[other].mark != stamp) {
                     points_[other].mark = stamp;
+                    mark_face_[other] = static_cast<std::uint32_t>(all.size());
                     all.push_back({v, other});
                 }
+                face_edges_[face][3 - at - k] = mark_face_[other];
+            }
+        }
     }
     if (complex_.virtual_edges.empty())
         return all;
@@ -54,21 +83,21 @@ void WildMesh::gatherSides(std::uint32_t v) {
         if (points_[other].mark != stamp) {
             points_[other].mark = stamp;
             mark_face_[other] = static_cast<std::uint32_t>(sides_.size());
-            sides_.push_back({other, 0, {}});
+            sides_.push_back({other, 1, along, {to_third, {}}, {}});
+            return;
         }
         Side& side = sides_[mark_face_[other]];
-        ++side.faces;
-        const float length2 = dot(along, along);
-        if (!(length2 > 0.0f))
+        if (++side.faces == 2) {
+            side.thirds[1] = to_third;
             return;
-        const Float3 off = to_third - along * (dot(to_third, along) / length2);
-        const float off2 = dot(off, off);
-        if (off2 > 1e-12f * length2) // a sliver lies nowhere
-            side.sum = side.sum + off * (1.0f / std::sqrt(off2));
+        }
+        if (side.faces == 3)
+            side.sum = offEdge(along, side.thirds[0]) + offEdge(along, side.thirds[1]);
+        side.sum = side.sum + offEdge(along, to_third);
     };
     for (const std::uint32_t face : facesAround(v)) {
         const Corners& corners = faces_[face];
-        const std::size_t k = corners[0] == v ? 0 : corners[1] == v ? 1 : 2;
+        const std::size_t k = cornerOf(corners, v);
         const std::uint32_t next = corners[(k + 1) % 3];
         const std::uint32_t last = corners[(k + 2) % 3];
         const Float3 to_next = points_[next].position - from;
@@ -76,6 +105,24 @@ void WildMesh::gatherSides(std::uint32_t v) {
         add(next, to_next, to_last);
         add(last, to_last, to_next);
     }
+}
+
+// Borders are edges all of whose faces lie on the same side: with one face, or with several that
+// lie back to back (the rims of two-sided cards, and of sheets that have merged).
+bool WildMesh::isBorder(const Side& side) {
+    constexpr float kSameSide = 0.99f;
+    Float3 sum = side.sum;
+    if (side.faces < 3) {
+        const auto& [one, two] = side.thirds;
+        if (side.faces == 2 && dot(one, two) * dot(side.along, side.along) <=
+                                   dot(one, side.along) * dot(two, side.along))
+            return false; // on opposite sides: nearly always
+        sum = offEdge(side.along, one);
+        if (side.faces == 2)
+            sum = sum + offEdge(side.along, two);
+    }
+    const float least = kSameSide * static_cast<float>(side.faces);
+    return dot(sum, sum) > least * least;
 }
 
 void WildMesh::addBorder(Area& area, Float3 edge) const {
@@ -91,21 +138,16 @@ void WildMesh::addBorder(Area& area, Float3 edge) const {
     area.weight += dot(edge, edge);
 }
 
-// Borders are edges all of whose faces lie on the same side: with one face, or with several that
-// lie back to back (the rims of two-sided cards, and of sheets that have merged).
 const WildMesh::Area& WildMesh::areaOf(std::uint32_t v) {
-    constexpr float kSameSide = 0.99f;
     Area& area = areas_[v];
     if (!area.stale)
         return area;
     area = {};
     area.stale = false;
     gatherSides(v);
-    for (const Side& side : sides_) {
-        const float least = kSameSide * static_cast<float>(side.faces);
-        if (dot(side.sum, side.sum) > least * least)
-            addBorder(area, points_[side.other].position - points_[v].position);
-    }
+    for (const Side& side : sides_)
+        if (isBorder(side))
+            addBorder(area, side.along);
     return area;
 }
 
@@ -213,7 +255,7 @@ Placement WildMesh::place(std::uint32_t a, std::uint32_t b) {
                 best = {half * side, std::max(cost, 0.0f), 0.0f};
     }
     const float added = best.cost - (planes_a.c + planes_b.c) * kForgiven;
-    best.key = std::max(added, 0.0f) * dearness(a, b) +
+    best.key = (added > 0.0f ? added * dearness(a, b) : 0.0f) +
                (exact.xx + exact.yy + exact.zz) * length2 * kShortEdge;
     return best;
 }

@@ -37,6 +37,21 @@ public:
     // Collapses b into a if strictness allows, and logs the step.
     bool collapse(std::uint32_t a, std::uint32_t b, Strictness strictness);
 
+    // Right after b has collapsed into a: calls visit(x, y) for edges, by their number in edges(),
+    // that have become the same. Those of faces that died with their edge; others go unnoticed.
+    template <class Visit>
+    void visitCoinciding(std::uint32_t a, std::uint32_t b, Visit visit) const {
+        for (const std::uint32_t face : dying_) {
+            std::array<std::uint32_t, 2> sides;
+            std::size_t count = 0;
+            for (std::size_t k = 0; k < 3; ++k)
+                if (const std::uint32_t v = faces_[face][k]; v == a || v == b)
+                    sides[count++ % 2] = face_edges_[face][k];
+            if (count == 2)
+                visit(sides[0], sides[1]);
+        }
+    }
+
 private:
     // Squared area that the borders at a vertex sweep when it moves, about it (Lindstrom and Turk
     // 1998). Without memory: reckoned from the mesh as it is now, when asked for.
@@ -50,11 +65,14 @@ private:
     struct Side {
         std::uint32_t other = 0; // end of the edge
         std::uint32_t faces = 0;
-        Float3 sum; // of the unit directions in which the faces lie off the edge
+        Float3 along;                 // to the end
+        std::array<Float3, 2> thirds; // to the third corners of the first two faces
+        Float3 sum; // of the unit directions in which faces lie off the edge, of three or more
     };
 
     const Area& areaOf(std::uint32_t v);
     void gatherSides(std::uint32_t v);
+    static bool isBorder(const Side& side);
     void addBorder(Area& area, Float3 edge) const;
     Quadric areaQuadric(std::uint32_t v);
     Placement place(std::uint32_t a, std::uint32_t b);
@@ -68,13 +86,21 @@ private:
     const WildOptions& wild_;
     glm::dmat3 border_metric_; // what a vector area counts over all instances
     std::size_t component_ = 0;
-    std::vector<Area> areas_; // [vertices]
-    std::vector<Side> sides_; // scratch
+    std::vector<Area> areas_;                              // [vertices]
+    std::vector<Side> sides_;                              // scratch
+    std::vector<std::array<std::uint32_t, 3>> face_edges_; // [faces] opposite each corner
+};
+
+struct LazyGreedyOptions {
+    Strictness first = Strictness::Anything; // what is tried before liberties are taken
+    // Components with more faces are collapsed in passes down to the second number.
+    std::uint32_t passes_above = 24'000;
+    std::uint32_t passes_until = 6'000;
 };
 
 // Collapses until nothing is left to collapse, the cheapest pair first. Costs are refreshed when
 // their pair comes up, not when they change: around virtual edges valences explode. False if
 // stopped.
-bool collapseLazily(WildMesh& mesh, Strictness first, const CollapseWatch& watch);
+bool collapseLazily(WildMesh& mesh, const LazyGreedyOptions& options, const CollapseWatch& watch);
 
 } // namespace lodestone
