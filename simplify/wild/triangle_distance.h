@@ -2,6 +2,8 @@
 // How far two triangles are apart.
 #include "simplify/measure/surface.h"
 
+#include <optional>
+
 namespace lodestone {
 
 struct TriangleGap {
@@ -9,10 +11,8 @@ struct TriangleGap {
     std::array<glm::dvec3, 2> at; // closest points: on the first, on the second
 };
 
-// Exact but for rounding; triangles may have collapsed to segments or points.
-TriangleGap triangleGap(const Triangle& a, const Triangle& b);
-
-// Cheap: true only if they are farther apart than a distance, because a plane of one parts them.
-bool surelyApart(const Triangle& a, const Triangle& b, double distance);
+// Exact but for rounding; nothing if they are not nearer than `below`, which is found out fast.
+// Triangles may have collapsed to segments or points.
+std::optional<TriangleGap> triangleGap(const Triangle& a, const Triangle& b, double below);
 
 } // namespace lodestone

@@ -33,13 +33,13 @@ void TriangleTree::build(std::uint32_t begin, std::uint32_t end) {
         const std::uint32_t face = order_[i];
         node.box.low = glm::min(node.box.low, boxes_[face].low);
         node.box.high = glm::max(node.box.high, boxes_[face].high);
-        node.last_face = std::max(node.last_face, face);
         if (component_of_face_[face] != node.component)
             node.component = kNone;
     }
     if (end - begin <= kLeaf) {
         node.begin = begin;
         node.end = end;
+        leaves_.push_back(static_cast<std::uint32_t>(self));
     } else {
         const glm::vec3 size = node.box.high - node.box.low;
         const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;

@@ -4,7 +4,9 @@
 #include "simplify/wild/triangle_tree.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
+#include <optional>
 #include <tbb/parallel_for.h>
 #include <tuple>
 
@@ -15,7 +17,37 @@ namespace {
 struct Candidate {
     std::uint32_t a = 0; // a vertex of a component
     std::uint32_t b = 0; // of another one
-    double length = 0.0;
+    double length2 = 0.0;
+};
+
+// The shortest edges seen lately: what is longer than another edge from one of its ends to the same
+// component is never kept, and most near pairs of faces have nothing better to offer. Forgetful, as
+// it only spares work.
+class ShortestSeen {
+public:
+    bool beats(std::uint32_t vertex, std::uint32_t component, std::uint32_t other, double length2) {
+        const Place& place = placeOf(vertex, component);
+        return place.vertex == vertex && place.component == component &&
+               (place.length2 < length2 || (place.length2 == length2 && place.other <= other));
+    }
+
+    void add(std::uint32_t vertex, std::uint32_t component, std::uint32_t other, double length2) {
+        placeOf(vertex, component) = {vertex, component, other, length2};
+    }
+
+private:
+    struct Place {
+        std::uint32_t vertex = kNone;
+        std::uint32_t component = kNone;
+        std::uint32_t other = kNone;
+        double length2 = 0.0;
+    };
+
+    Place& placeOf(std::uint32_t vertex, std::uint32_t component) {
+        return places_[(vertex + component * 40'503u) % places_.size()];
+    }
+
+    std::array<Place, 1024> places_;
 };
 
 std::vector<std::uint32_t> componentsOfFaces(const Complex& complex) {
@@ -37,6 +69,7 @@ double diagonalOf(const Complex& complex) {
 struct Finder {
     const Complex& complex;
     const TriangleTree& tree;
+    std::span<const std::uint32_t> component_of_vertex;
     VirtualEdgeRule rule;
     double reach;
 
@@ -51,53 +84,67 @@ struct Finder {
         return t;
     }
 
-    Candidate edge(std::uint32_t a, std::uint32_t b) const {
-        return {
-            a, b, glm::length(glm::dvec3(complex.positions[a]) - glm::dvec3(complex.positions[b]))};
-    }
-
     // The corner nearest to a point.
-    std::uint32_t cornerAt(std::uint32_t face, const glm::dvec3& at) const {
-        const Triangle t = triangle(face);
+    static std::size_t cornerAt(const Triangle& t, const glm::dvec3& at) {
         std::size_t best = 0;
         for (std::size_t k = 1; k < 3; ++k)
             if (glm::length(t[k] - at) < glm::length(t[best] - at))
                 best = k;
-        return vertex(face, best);
+        return best;
     }
 
-    void offer(std::uint32_t face, std::uint32_t other, std::vector<Candidate>& out) const {
-        if (rule == VirtualEdgeRule::Triangles) {
-            const Triangle one = triangle(face);
-            const Triangle two = triangle(other);
-            if (surelyApart(one, two, reach))
-                return;
-            const TriangleGap gap = triangleGap(one, two);
-            if (gap.distance < reach)
-                out.push_back(edge(cornerAt(face, gap.at[0]), cornerAt(other, gap.at[1])));
-            return;
-        }
+    bool beaten(const Candidate& edge, ShortestSeen& seen) const {
+        return seen.beats(edge.a, component_of_vertex[edge.b], edge.b, edge.length2) ||
+               seen.beats(edge.b, component_of_vertex[edge.a], edge.a, edge.length2);
+    }
+
+    void offer(std::uint32_t face,
+               std::uint32_t other,
+               ShortestSeen& seen,
+               std::vector<Candidate>& out) const {
+        const Triangle one = triangle(face);
+        const Triangle two = triangle(other);
+        std::array<std::optional<Candidate>, 9> edges; // between corners, unless beaten
         for (std::size_t k = 0; k < 3; ++k)
-            for (std::size_t l = 0; l < 3; ++l)
-                if (const Candidate found = edge(vertex(face, k), vertex(other, l));
-                    found.length < reach)
-                    out.push_back(found);
+            for (std::size_t l = 0; l < 3; ++l) {
+                const glm::dvec3 gap = one[k] - two[l];
+                const Candidate edge{vertex(face, k), vertex(other, l), glm::dot(gap, gap)};
+                if (!beaten(edge, seen))
+                    edges[3 * k + l] = edge;
+            }
+        if (std::ranges::none_of(edges, [](const auto& edge) { return edge.has_value(); }))
+            return;
+        if (rule == VirtualEdgeRule::Triangles) {
+            const auto gap = triangleGap(one, two, reach);
+            if (!gap)
+                return;
+            const std::size_t at = 3 * cornerAt(one, gap->at[0]) + cornerAt(two, gap->at[1]);
+            for (std::size_t i = 0; i < edges.size(); ++i)
+                if (i != at)
+                    edges[i].reset();
+        }
+        for (const std::optional<Candidate>& edge : edges)
+            if (edge && (rule == VirtualEdgeRule::Triangles || edge->length2 < reach * reach)) {
+                seen.add(edge->a, component_of_vertex[edge->b], edge->b, edge->length2);
+                seen.add(edge->b, component_of_vertex[edge->a], edge->a, edge->length2);
+                out.push_back(*edge);
+            }
     }
 };
 
 // A block at a time, so that the result does not depend on the threads.
 std::vector<Candidate> findCandidates(const Finder& finder, const JobContext& job) {
-    constexpr std::size_t kBlock = 512; // faces
-    const std::size_t faces = finder.complex.faces.size();
-    std::vector<std::vector<Candidate>> blocks((faces + kBlock - 1) / kBlock);
+    constexpr std::size_t kBlock = 128; // leaves
+    const std::size_t leaves = finder.tree.leafCount();
+    std::vector<std::vector<Candidate>> blocks((leaves + kBlock - 1) / kBlock);
     tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t block) {
-        const std::size_t end = std::min(faces, (block + 1) * kBlock);
-        for (std::size_t f = block * kBlock; f < end && !job.stopRequested(); ++f) {
-            const auto face = static_cast<std::uint32_t>(f);
-            finder.tree.visitNear(face, finder.reach, [&](std::uint32_t other) {
-                finder.offer(face, other, blocks[block]);
-            });
-        }
+        const std::size_t end = std::min(leaves, (block + 1) * kBlock);
+        ShortestSeen seen;
+        for (std::size_t leaf = block * kBlock; leaf < end && !job.stopRequested(); ++leaf)
+            finder.tree.visitPairs(
+                leaf, finder.reach, [&](std::uint32_t face, std::uint32_t other) {
+                    finder.offer(face, other, seen, blocks[block]);
+                });
     });
     std::vector<Candidate> all;
     for (const std::vector<Candidate>& block : blocks)
@@ -109,7 +156,7 @@ std::vector<Candidate> findCandidates(const Finder& finder, const JobContext& jo
 std::vector<std::array<std::uint32_t, 2>> shortestOf(std::vector<Candidate> edges,
                                                      std::size_t vertex_count) {
     constexpr std::uint32_t kMostAtVertex = 8;
-    std::ranges::stable_sort(edges, {}, &Candidate::length);
+    std::ranges::stable_sort(edges, {}, &Candidate::length2);
     std::vector<std::uint32_t> taken(vertex_count, 0);
     std::vector<std::array<std::uint32_t, 2>> kept;
     for (const Candidate& edge : edges)
@@ -128,20 +175,20 @@ mutuallyNearest(std::span<const Candidate> candidates,
     struct Choice {
         std::uint32_t vertex = 0;
         std::uint32_t component = 0; // the other one
-        double length = 0.0;
+        double length2 = 0.0;
         std::uint32_t other = 0;
 
         bool operator<(const Choice& than) const {
-            return std::tie(vertex, component, length, other) <
-                   std::tie(than.vertex, than.component, than.length, than.other);
+            return std::tie(vertex, component, length2, other) <
+                   std::tie(than.vertex, than.component, than.length2, than.other);
         }
     };
 
     std::vector<Choice> choices;
     choices.reserve(2 * candidates.size());
     for (const Candidate& edge : candidates) {
-        choices.push_back({edge.a, component_of_vertex[edge.b], edge.length, edge.b});
-        choices.push_back({edge.b, component_of_vertex[edge.a], edge.length, edge.a});
+        choices.push_back({edge.a, component_of_vertex[edge.b], edge.length2, edge.b});
+        choices.push_back({edge.b, component_of_vertex[edge.a], edge.length2, edge.a});
     }
     std::ranges::sort(choices, std::less{});
     const auto same = [](const Choice& a, const Choice& b) {
@@ -157,7 +204,7 @@ mutuallyNearest(std::span<const Candidate> candidates,
     for (const Choice& choice : choices)
         if (choice.vertex < choice.other &&
             nearest(choice.other, component_of_vertex[choice.vertex]) == choice.vertex)
-            mutual.push_back({choice.vertex, choice.other, choice.length});
+            mutual.push_back({choice.vertex, choice.other, choice.length2});
     return shortestOf(std::move(mutual), component_of_vertex.size());
 }
 
@@ -218,7 +265,8 @@ void addVirtualEdges(Complex& complex, const VirtualEdgeOptions& options, const 
         for (const std::uint32_t wedge : complex.faces[f])
             component_of_vertex[complex.wedge_vertex[wedge]] = component_of_face[f];
     const TriangleTree tree(complex, component_of_face);
-    const Finder finder{complex, tree, options.rule, options.epsilon * diagonalOf(complex)};
+    const Finder finder{
+        complex, tree, component_of_vertex, options.rule, options.epsilon * diagonalOf(complex)};
     const std::vector<Candidate> candidates = findCandidates(finder, job);
     if (job.stopRequested() || candidates.empty())
         return;

@@ -3,11 +3,13 @@
 #include "simplify/wild/triangle_distance.h"
 #include "simplify/wild/virtual_edges.h"
 #include "simplify/wild/wild.h"
+#include "tests/simplify/damaged_meshes.h"
 #include "tests/simplify/meshes.h"
 
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <limits>
 #include <random>
 
 using namespace lodestone;
@@ -43,6 +45,8 @@ Complex complexOf(const std::vector<GeometryPtr>& primitives, const VirtualEdgeO
     return complex;
 }
 
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
 // Distance by brute force over a grid of points on both triangles.
 double sampledGap(const Triangle& a, const Triangle& b) {
     constexpr int kSteps = 40;
@@ -73,21 +77,32 @@ TEST(TriangleGap, AgreesWithSamplesAndItsOwnPoints) {
         }
         if (round % 5 == 0)
             b[2] = b[1]; // a segment
-        const TriangleGap gap = triangleGap(a, b);
+        const auto found = triangleGap(a, b, kFar);
+        ASSERT_TRUE(found);
+        const TriangleGap& gap = *found;
         EXPECT_NEAR(gap.distance, glm::length(gap.at[0] - gap.at[1]), 1e-12);
         EXPECT_LT(std::sqrt(squaredDistance(gap.at[0], a)), 1e-9);
         EXPECT_LT(std::sqrt(squaredDistance(gap.at[1], b)), 1e-9);
         const double sampled = sampledGap(a, b);
         EXPECT_LE(gap.distance, sampled + 1e-9);
         EXPECT_GE(gap.distance, sampled - 0.08); // the samples' spacing
+        for (const double below : {0.9 * gap.distance, gap.distance, 1.1 * gap.distance + 1e-9}) {
+            const auto nearer = triangleGap(a, b, below);
+            ASSERT_EQ(nearer.has_value(), gap.distance < below);
+            if (nearer) {
+                EXPECT_EQ(nearer->distance, gap.distance);
+            }
+        }
     }
 }
 
 TEST(TriangleGap, IsZeroWhereTrianglesCross) {
     const Triangle flat{glm::dvec3(0, 0, 0), {2, 0, 0}, {0, 2, 0}};
     const Triangle through{glm::dvec3(0.5, 0.5, -1), {0.5, 0.5, 1}, {3, 3, 1}};
-    EXPECT_EQ(triangleGap(flat, through).distance, 0.0);
-    EXPECT_EQ(triangleGap(through, flat).distance, 0.0);
+    for (const auto& gap : {triangleGap(flat, through, kFar), triangleGap(through, flat, 1e-9)}) {
+        ASSERT_TRUE(gap);
+        EXPECT_EQ(gap->distance, 0.0);
+    }
 }
 
 TEST(VirtualEdges, JoinPartsWhoseSurfacesTouchThoughTheirVerticesAreFarApart) {
@@ -201,4 +216,12 @@ TEST(Wild, InstancesWeighLikeCopies) {
     const glm::dvec3 swept = glm::cross(u, v);
     const double closed = weights.scale() * glm::dot(swept, weights.area() * swept);
     EXPECT_NEAR(closed, literal, 1e-9 * literal);
+}
+
+TEST(Wild, DamagedMeshesReachAThousandth) { // a sample; lodestone_model_tests takes 200
+    for (unsigned seed = 0; seed < 10; ++seed) {
+        SCOPED_TRACE(seed);
+        expectWildReachesAThousandth(
+            sceneOf({submeshOf({damagedMesh(1000 + seed)})}, {{glm::dmat4(1.0)}}));
+    }
 }
