@@ -236,6 +236,12 @@ TEST(Bake, UnusedTexelsNeverReachTheSurface) {
     options.unused = kMagenta;
     const Result<BakedScene> baked = bakeTextures(*scene, lod, std::span(&at, 1), options, {});
     ASSERT_TRUE(baked) << baked.error().message;
+    const DecodedImage atlas = decodeImage(baked->scene->images[0], 512);
+    ASSERT_TRUE(atlas.rgba);
+    int unused = 0;
+    for (std::size_t i = 0; i < std::size_t{512} * 512; ++i)
+        unused += std::equal(kMagenta.begin(), kMagenta.end(), atlas.rgba.get() + 4 * i);
+    ASSERT_GT(unused, 1000); // there is something that could show
     const SurfaceColors colors(*baked->scene);
     const Primitive& primitive = baked->scene->submeshes[0].primitives[0];
     std::mt19937 random(11);
