@@ -1,8 +1,7 @@
-#include "scene/expansion.h"
 #include "scene/export.h"
 #include "scene/gltf/packed_export.h"
 #include "scene/gltf/packed_size.h"
-#include "scene/gltf/writer.h"
+#include "scene/storage.h"
 
 #include <optional>
 
@@ -10,58 +9,52 @@ namespace lodestone {
 
 struct ByteModel::Impl {
     Impl(ScenePtr from, const ExportOptions& options)
-        : scene(std::move(from)), expansion(options.instancing == Instancing::Expand
-                                                ? std::optional<Expansion>(planExpansion(*scene))
-                                                : std::nullopt),
-          plan(expansion ? *expansion->skeleton : *scene,
-               options,
-               planGrids(expansion ? *expansion->skeleton : *scene,
-                         options.compression,
-                         gridBounds(options))),
-          ranges(instanceRanges(*scene)) {
-        if (expansion)
+        : scene(std::move(from)), ranges(instanceRanges(*scene)) {
+        storages.push_back(planStorage(*scene, options));
+        for (Storage& storage : planExpandedStorages(*scene, storages.front()))
+            storages.push_back(std::move(storage));
+        if (expansion())
             findMergedParts();
         if (isPacked(options))
             learnPacking();
     }
+
+    const ExportPlan& plan() const { return *storages.front().plan; }
+
+    // Instancing::Expand only.
+    const std::optional<Expansion>& expansion() const { return storages.front().expansion; }
 
     void learnPacking() {
         packing.emplace();
         for (const double share : {1.0, 0.25, 0.06, 0.015}) {
             Lod lod = sampleLod(*scene, share);
             LodShape shape = shapeOf(*scene, lod);
-            if (expansion) {
-                Result<Lod> expanded = expandLod(*expansion, *scene, lod, {});
+            if (expansion()) {
+                Result<Lod> expanded = expandLod(*expansion(), *scene, lod, {});
                 if (!expanded)
                     continue; // more vertices than fit: a smaller share may
-                shape = expandShape(*expansion, *scene, shape);
+                shape = expandShape(*expansion(), *scene, shape);
                 lod = std::move(*expanded);
             }
-            const Layout layout = chooseLayout(plan, shape);
-            const Result<PackedDocument> packed = packedExport(plan, layout, lod, "");
+            const Layout layout = chooseLayout(plan(), shape);
+            const Result<PackedDocument> packed = packedExport(plan(), layout, lod, "");
             if (!packed)
                 continue; // positions that are not finite
-            const ExportBytes unpacked = exportBytes(plan, layout);
+            const ExportBytes unpacked = exportBytes(plan(), layout);
             packing->learn(unpacked, packedBytes(*packed, dumpJson(packed->json).size(), unpacked));
         }
     }
 
     std::uint64_t bytesOf(const LodShape& shape) const {
-        const Layout layout = chooseLayout(plan, shape);
+        const ChosenStorage chosen = smallestStorage(storages, *scene, shape);
         if (!packing)
-            return exportedBytes(plan, layout);
-        return static_cast<std::uint64_t>(packing->estimate(exportBytes(plan, layout)));
+            return chosen.stored.bytes;
+        return static_cast<std::uint64_t>(
+            packing->estimate(exportBytes(plan(), chosen.stored.layout)));
     }
 
     double packed(ExportBytes::Part part, double bytes) const {
         return packing ? bytes * packing->ratio(part) : bytes;
-    }
-
-    // Vertices of an expanded scene are only known by their bounds.
-    std::vector<Bounds> gridBounds(const ExportOptions& options) const {
-        const bool merges = expansion && options.compression != Compression::None;
-        return submeshBounds(expansion ? *expansion->skeleton : *scene,
-                             merges ? worldBounds(*scene) : Bounds{});
     }
 
     void findMergedParts() {
@@ -69,22 +62,22 @@ struct ByteModel::Impl {
         merging_instances.assign(scene->submeshes.size(), 0);
         for (std::size_t s = 0; s < scene->submeshes.size(); ++s)
             merged_part[s].resize(scene->submeshes[s].primitives.size(), kNone);
-        for (std::uint32_t g = 0; g < expansion->groups.size(); ++g)
-            for (const ExpandPart& part : expansion->groups[g].parts)
-                merged_part[part.submesh][part.primitive] = expansion->first_merged + g;
+        for (std::uint32_t g = 0; g < expansion()->groups.size(); ++g)
+            for (const ExpandPart& part : expansion()->groups[g].parts)
+                merged_part[part.submesh][part.primitive] = expansion()->first_merged + g;
         for (std::size_t i = 0; i < scene->instances.size(); ++i)
-            merging_instances[scene->instances[i].submesh] += expansion->merges[i] ? 1 : 0;
+            merging_instances[scene->instances[i].submesh] += expansion()->merges[i] ? 1 : 0;
         apart_of.assign(scene->submeshes.size(), kNone);
-        for (std::uint32_t s = 0; s < expansion->apart.size(); ++s)
-            apart_of[expansion->apart[s]] = s;
+        for (std::uint32_t s = 0; s < expansion()->apart.size(); ++s)
+            apart_of[expansion()->apart[s]] = s;
     }
 
     // Bytes of a vertex and of a triangle as one primitive of the plan's scene stores them.
     double vertexBytes(std::uint32_t submesh, std::uint32_t primitive) const {
         double bytes = 0.0;
-        const MeshPlan& mesh = plan.meshes[plan.submeshes[submesh].mesh];
+        const MeshPlan& mesh = plan().meshes[plan().submeshes[submesh].mesh];
         for (const StreamPlan& stream : mesh.primitives[primitive].streams)
-            bytes += plan.strides[stream.view_class - kFirstStrideClass];
+            bytes += plan().strides[stream.view_class - kFirstStrideClass];
         return packed(ExportBytes::Geometry, bytes);
     }
 
@@ -100,8 +93,7 @@ struct ByteModel::Impl {
     }
 
     ScenePtr scene;
-    std::optional<Expansion> expansion; // Instancing::Expand only
-    ExportPlan plan;                    // of the scene, or of the expanded one
+    std::vector<Storage> storages; // those of Instancing::Auto that expand come after the first
     std::optional<PackedSizes> packing; // Meshopt and Draco
     std::vector<InstanceRange> ranges;
     std::vector<std::vector<std::uint32_t>> merged_part; // [submeshes][primitives] in the skeleton
@@ -117,13 +109,11 @@ ByteModel::ByteModel(ByteModel&&) noexcept = default;
 ByteModel& ByteModel::operator=(ByteModel&&) noexcept = default;
 
 std::uint64_t ByteModel::bytes(const LodShape& shape) const {
-    if (!impl_->expansion)
-        return impl_->bytesOf(shape);
-    return impl_->bytesOf(expandShape(*impl_->expansion, *impl_->scene, shape));
+    return impl_->bytesOf(shape);
 }
 
 double ByteModel::bytesPerVertex(std::uint32_t submesh, std::uint32_t primitive) const {
-    if (!impl_->expansion)
+    if (!impl_->expansion())
         return impl_->vertexBytes(submesh, primitive);
     const Impl::Copies copies = impl_->copies(submesh);
     double bytes = 0.0;
@@ -139,15 +129,15 @@ double ByteModel::bytesPerTriangle(std::uint32_t submesh, std::uint32_t primitiv
     const double narrow = 0.5 * wide;
     const Geometry& geometry = *impl_->scene->submeshes[submesh].primitives[primitive].geometry;
     const double own = geometry.positions.size() > 65535 ? wide : narrow;
-    if (!impl_->expansion)
+    if (!impl_->expansion())
         return own;
     const Impl::Copies copies = impl_->copies(submesh);
     return copies.merged * wide + copies.apart * own;
 }
 
 double ByteModel::bytesPerInstance(std::uint32_t submesh) const {
-    if (!impl_->expansion) {
-        const SubmeshPlan& plan = impl_->plan.submeshes[submesh];
+    if (!impl_->expansion()) {
+        const SubmeshPlan& plan = impl_->plan().submeshes[submesh];
         return plan.range.size() >= plan.fold_from
                    ? impl_->packed(ExportBytes::Rows, plan.row_bytes)
                    : plan.node_bytes;

@@ -45,15 +45,20 @@ GeometryPtr emptyLike(const Geometry& geometry) {
     return std::make_shared<const Geometry>(std::move(empty));
 }
 
-void planInstanceRoles(Expansion& expansion, const Scene& scene) {
+// Whether nothing but its place tells an instance from others.
+bool canMerge(const Scene& scene, const Instance& instance) {
+    const Node& node = scene.nodes[instance.node];
+    return !node.animated && node.skin == kNone;
+}
+
+void planInstanceRoles(Expansion& expansion, const Scene& scene, const std::vector<bool>& wanted) {
     expansion.merges.assign(scene.instances.size(), false);
     std::vector<bool> mergeable;
-    for (const Submesh& submesh : scene.submeshes)
-        mergeable.push_back(canMerge(submesh));
+    for (std::size_t s = 0; s < scene.submeshes.size(); ++s)
+        mergeable.push_back(wanted[s] && canMerge(scene.submeshes[s]));
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
-        const Node& node = scene.nodes[instance.node];
-        expansion.merges[i] = mergeable[instance.submesh] && !node.animated && node.skin == kNone;
+        expansion.merges[i] = mergeable[instance.submesh] && canMerge(scene, instance);
     }
 }
 
@@ -257,7 +262,21 @@ void countLod(Lod& lod) {
 
 } // namespace
 
+std::vector<bool> mergingSubmeshes(const Scene& scene) {
+    std::vector<bool> merging;
+    for (const Submesh& submesh : scene.submeshes)
+        merging.push_back(canMerge(submesh));
+    for (const Instance& instance : scene.instances)
+        if (!canMerge(scene, instance))
+            merging[instance.submesh] = false;
+    return merging;
+}
+
 Expansion planExpansion(const Scene& scene) {
+    return planExpansion(scene, std::vector<bool>(scene.submeshes.size(), true));
+}
+
+Expansion planExpansion(const Scene& scene, const std::vector<bool>& wanted) {
     Expansion expansion;
     expansion.skeleton = std::make_shared<Scene>();
     Scene& skeleton = *expansion.skeleton;
@@ -267,7 +286,7 @@ Expansion planExpansion(const Scene& scene) {
     skeleton.cameras = scene.cameras;
     skeleton.file_bytes = scene.file_bytes;
     skeleton.notes = scene.notes;
-    planInstanceRoles(expansion, scene);
+    planInstanceRoles(expansion, scene, wanted);
     planSubmeshes(expansion, scene);
     expandDocument(expansion, scene);
     return expansion;

@@ -31,6 +31,12 @@ struct Expansion {
 // Static triangle meshes without morph targets merge per material and set of attributes; whatever
 // is skinned or moves, points and lines stay apart. O(instances + document).
 Expansion planExpansion(const Scene& scene);
+// The same of some submeshes alone; the others stay apart with all their instances.
+// wanted: [scene.submeshes].
+Expansion planExpansion(const Scene& scene, const std::vector<bool>& wanted);
+
+// Submeshes of which every instance would merge. [scene.submeshes]
+std::vector<bool> mergingSubmeshes(const Scene& scene);
 
 // Counts of the expanded LOD. O(kept instances of submeshes that merge in part + primitives).
 LodShape expandShape(const Expansion& expansion, const Scene& scene, const LodShape& shape);

@@ -1,9 +1,8 @@
 #include "scene/export.h"
 
 #include "scene/atomic_file.h"
-#include "scene/expansion.h"
 #include "scene/gltf/packed_export.h"
-#include "scene/gltf/writer.h"
+#include "scene/storage.h"
 
 #include <algorithm>
 #include <array>
@@ -220,6 +219,37 @@ Result<ExportReport> writeScene(const Scene& scene,
     return report;
 }
 
+Storage chooseStorage(const Scene& scene, const LodShape& shape, const ExportOptions& options) {
+    std::vector<Storage> storages;
+    storages.push_back(planStorage(scene, options));
+    if (mayExpand(shape))
+        for (Storage& storage : planExpandedStorages(scene, storages.front()))
+            storages.push_back(std::move(storage));
+    return std::move(storages[smallestStorage(storages, scene, shape).storage]);
+}
+
+// What Instancing::Auto has chosen.
+std::string
+storageNote(const Scene& scene, const LodShape& shape, const std::vector<bool>& expanded) {
+    std::uint32_t drawn_submeshes = 0;
+    std::uint32_t expanded_submeshes = 0;
+    std::uint64_t instances = 0;
+    for (std::size_t s = 0; s < scene.submeshes.size(); ++s) {
+        const std::uint32_t kept = shape.submeshes[s].kept_instances;
+        drawn_submeshes += kept > 0 ? 1 : 0;
+        if (!expanded[s] || kept == 0)
+            continue;
+        ++expanded_submeshes;
+        instances += kept;
+    }
+    return "auto: kept " + std::to_string(drawn_submeshes - expanded_submeshes) + " of " +
+           std::to_string(drawn_submeshes) +
+           " submeshes instanced; smaller expanded and merged by "
+           "material, without nodes and names of their own: " +
+           std::to_string(expanded_submeshes) + " with " + std::to_string(instances) +
+           (instances == 1 ? " instance" : " instances");
+}
+
 } // namespace
 
 Result<ExportReport> exportScene(const Scene& scene,
@@ -228,15 +258,22 @@ Result<ExportReport> exportScene(const Scene& scene,
                                  const ExportOptions& options) {
     ExportOptions used = options;
     used.container = isGltfPath(path, options.container) ? Container::Gltf : Container::Glb;
-    if (used.instancing != Instancing::Expand)
-        return writeScene(scene, lod, shapeOf(scene, lod), {path, used});
-    const Expansion expansion = planExpansion(scene);
-    Result<Lod> expanded = expandLod(expansion, scene, lod, {});
+    const LodShape shape = shapeOf(scene, lod);
+    const Storage storage = chooseStorage(scene, shape, used);
+    if (!storage.expansion)
+        return writeScene(scene, lod, shape, {path, used});
+    Result<Lod> expanded = expandLod(*storage.expansion, scene, lod, {});
     if (!expanded)
         return tl::unexpected(expanded.error());
-    const LodShape shape = expandShape(expansion, scene, shapeOf(scene, lod));
     const Bounds merged = used.compression == Compression::None ? Bounds{} : worldBounds(scene);
-    return writeScene(*expansion.skeleton, *expanded, shape, {path, used}, merged);
+    Result<ExportReport> report = writeScene(storage.writtenScene(),
+                                             *expanded,
+                                             expandShape(*storage.expansion, scene, shape),
+                                             {path, used},
+                                             merged);
+    if (report && used.instancing == Instancing::Auto)
+        report->notes.push_back(storageNote(scene, shape, storage.expanded));
+    return report;
 }
 
 } // namespace lodestone

@@ -56,7 +56,8 @@ void expectFalling(const LodSource& source, Instancing instancing) {
 void expectFalling(const ScenePtr& scene, const char* algorithm) {
     const auto source = findAlgorithm(algorithm)->prepare(scene, {}, {}, {});
     ASSERT_TRUE(source) << source.error().message;
-    for (const Instancing instancing : {Instancing::Auto, Instancing::Nodes, Instancing::Gpu})
+    for (const Instancing instancing :
+         {Instancing::Auto, Instancing::Nodes, Instancing::Gpu, Instancing::Expand})
         expectFalling(**source, instancing);
 }
 
