@@ -1,5 +1,7 @@
 #include "app/commands.h"
 
+#include "scene/finite.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
@@ -400,8 +402,7 @@ void run(Document& document, const Select& command) {
 
 bool finite(const CameraState& camera) {
     return std::isfinite(camera.azimuth_deg) && std::isfinite(camera.elevation_deg) &&
-           std::isfinite(camera.distance) && std::isfinite(camera.target.x) &&
-           std::isfinite(camera.target.y) && std::isfinite(camera.target.z);
+           std::isfinite(camera.distance) && isFinite(camera.target);
 }
 
 void run(Document& document, const SetCamera& command) {

@@ -1,6 +1,7 @@
 #include "bench/peers/reduce_scene.h"
 
 #include "bench/peers/nearest.h"
+#include "scene/finite.h"
 
 #include <algorithm>
 #include <array>
@@ -10,10 +11,6 @@
 namespace lodestone::bench {
 
 namespace {
-
-bool isFinite(const glm::vec3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
 
 std::vector<std::byte> gathered(const Attribute& attribute,
                                 std::span<const std::uint32_t> vertices) {
@@ -54,7 +51,7 @@ std::vector<std::uint32_t> compact(PeerMesh& mesh) {
 std::string faultOf(const PeerMesh& mesh) {
     if (mesh.indices.size() % 3 != 0)
         return "its indices are not triangles";
-    if (!std::ranges::all_of(mesh.positions, isFinite))
+    if (!std::ranges::all_of(mesh.positions, [](const glm::vec3& p) { return isFinite(p); }))
         return "a position is not finite";
     if (std::ranges::any_of(mesh.indices,
                             [&](std::uint32_t index) { return index >= mesh.positions.size(); }))

@@ -1,5 +1,7 @@
 #include "scene/assimp/mesh_convert.h"
 
+#include "scene/finite.h"
+
 #include <algorithm>
 #include <assimp/mesh.h>
 #include <cmath>
@@ -213,10 +215,11 @@ convertMesh(const aiMesh& mesh,
     all.positions.reserve(mesh.mNumVertices);
     for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
         const aiVector3D& from = mesh.mVertices[v];
-        if (!std::isfinite(from.x) || !std::isfinite(from.y) || !std::isfinite(from.z))
+        const glm::vec3 position(from.x, from.y, from.z);
+        if (!isFinite(position))
             return badInput("the position of vertex " + std::to_string(v) +
                             " is not a finite number; repair the mesh and export again");
-        all.positions.emplace_back(from.x, from.y, from.z);
+        all.positions.push_back(position);
     }
     all.attributes = attributesOf(mesh, options);
     const std::uint32_t material = material_of(mesh.mMaterialIndex);

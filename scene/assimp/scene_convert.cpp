@@ -3,6 +3,7 @@
 #include "scene/assimp/fold_equal.h"
 #include "scene/assimp/material_convert.h"
 #include "scene/assimp/mesh_convert.h"
+#include "scene/finite.h"
 
 #include <algorithm>
 #include <assimp/scene.h>
@@ -22,14 +23,6 @@ glm::dmat4 toMatrix(const aiMatrix4x4& from) {
         for (int column = 0; column < 4; ++column)
             to[column][row] = from[static_cast<unsigned>(row)][static_cast<unsigned>(column)];
     return to;
-}
-
-bool isFinite(const glm::dmat4& matrix) {
-    for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 4; ++row)
-            if (!std::isfinite(matrix[column][row]))
-                return false;
-    return true;
 }
 
 glm::dvec3 toVector(const aiVector3D& from) {

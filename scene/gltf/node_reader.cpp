@@ -1,5 +1,6 @@
 #include "scene/gltf/node_reader.h"
 
+#include "scene/finite.h"
 #include "scene/gltf/node_tree.h"
 #include "scene/scene_builder.h"
 
@@ -16,14 +17,6 @@ constexpr const char* kGpuInstancing = "EXT_mesh_gpu_instancing";
 
 std::string nodeName(const ReadContext& context, std::uint32_t node) {
     return label("node", node, context.scene.nodes[node].name);
-}
-
-bool isFinite(const glm::dmat4& matrix) {
-    for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 4; ++row)
-            if (!std::isfinite(matrix[column][row]))
-                return false;
-    return true;
 }
 
 glm::dvec3 vectorMember(const json& node, std::string_view key, const glm::dvec3& otherwise) {

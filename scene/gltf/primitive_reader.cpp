@@ -1,5 +1,6 @@
 #include "scene/gltf/primitive_reader.h"
 
+#include "scene/finite.h"
 #include "scene/gltf/draco_reader.h"
 
 #include <algorithm>
@@ -55,8 +56,7 @@ Result<std::vector<glm::vec3>> readPositions(const AccessorData& data) {
                 positions[v][static_cast<int>(c)] = attributeValue(attribute, v, c);
     }
     for (std::size_t v = 0; v < positions.size(); ++v)
-        if (!std::isfinite(positions[v].x) || !std::isfinite(positions[v].y) ||
-            !std::isfinite(positions[v].z))
+        if (!isFinite(positions[v]))
             return badInput("position of vertex " + std::to_string(v) +
                             " is not finite: repair the mesh and export again");
     return positions;

@@ -1,5 +1,6 @@
 #include "scene/gltf/writer_geometry.h"
 
+#include "scene/finite.h"
 #include "scene/gltf/writer_weights.h"
 
 #include <algorithm>
@@ -131,10 +132,6 @@ bool sameFormats(std::span<const Attribute> a, std::span<const Attribute> b, std
         a, b, [&](const Attribute& x, const Attribute& y) { return sameFormat(x, y, vertices); });
 }
 
-bool isFinite(const glm::vec3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
 // What is wrong with a primitive of a LOD; empty if nothing is.
 std::string faultOf(const Geometry& geometry, const Geometry& original) {
     const std::size_t vertices = geometry.positions.size();
@@ -146,7 +143,7 @@ std::string faultOf(const Geometry& geometry, const Geometry& original) {
                          original.morph_targets[t].attributes,
                          vertices))
             return "its morph targets differ from the scene's";
-    if (!std::ranges::all_of(geometry.positions, isFinite))
+    if (!std::ranges::all_of(geometry.positions, [](const glm::vec3& p) { return isFinite(p); }))
         return "a position is not finite";
     if (std::ranges::any_of(geometry.indices, [&](std::uint32_t i) { return i >= vertices; }))
         return "an index is out of range";

@@ -1,10 +1,10 @@
+#include "scene/finite.h"
 #include "scene/import.h"
 #include "simplify/algorithm.h"
 #include "tests/models_folder.h"
 #include "tests/simplify/meshes.h"
 
 #include <algorithm>
-#include <cmath>
 
 using namespace lodestone;
 using lodestone::tests::modelFiles;
@@ -17,7 +17,7 @@ constexpr std::uint64_t kLargest = 250'000; // unique triangles: larger ones tak
 
 void expectSound(const Geometry& geometry) {
     for (const glm::vec3& p : geometry.positions)
-        ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
+        ASSERT_TRUE(isFinite(p));
     for (const std::uint32_t index : geometry.indices)
         ASSERT_LT(index, geometry.positions.size());
     for (const Attribute& attribute : geometry.attributes)

@@ -1,4 +1,5 @@
 // The six methods over every real model: what must hold whatever comes in.
+#include "scene/finite.h"
 #include "scene/import.h"
 #include "simplify/pointcloud/cloud_submesh.h"
 #include "tests/models_folder.h"
@@ -71,7 +72,7 @@ void expectSound(const CloudSubmesh& cloud, const CloudPiece& piece) {
             continue;
         triangles += geometry.triangleCount();
         for (const glm::vec3& v : geometry.positions)
-            ASSERT_TRUE(std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z));
+            ASSERT_TRUE(isFinite(v));
         for (const std::uint32_t index : geometry.indices)
             ASSERT_LT(index, geometry.positions.size());
         for (const Attribute& attribute : geometry.attributes)
