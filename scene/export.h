@@ -8,7 +8,8 @@
 namespace lodestone {
 
 enum class Instancing : std::uint8_t {
-    Auto,   // whichever of the next two is smaller, per submesh and for the whole file
+    Auto,   // whichever of the others is smaller, per submesh and for the whole file; an untouched
+            // scene is not expanded, nor one whose bytes are packed
     Nodes,  // one node an instance
     Gpu,    // EXT_mesh_gpu_instancing where translation, rotation, scale can express it
     Expand, // no instancing: one mesh a material, vertices in world space
@@ -51,7 +52,8 @@ struct ExportReport {
 
 // Predicts without writing what exportScene would write. Prepared once for a scene and options
 // (Meshopt and Draco: packs the scene at several levels to learn its rates); bytes() is
-// O(primitives) for GPU instancing, O(nodes) otherwise. Thread-safe.
+// O(primitives) for GPU instancing, O(nodes) otherwise, for each way in which
+// Auto may store the scene. Thread-safe.
 class ByteModel {
 public:
     ByteModel(ScenePtr scene, const ExportOptions& options);
