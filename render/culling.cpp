@@ -89,7 +89,7 @@ Culling::Found Culling::find(const DrawItem& item, const View::Input& input) con
 SeenInstances Culling::seen(std::size_t item_place, const View::Input& input) {
     const DrawItem& item = input.lod->state()->items[item_place];
     const SeenInstances all{item.instances.get(), item.kept_instances};
-    if (sees_all_)
+    if (sees_all_ || input.scene->state().isPosed(item.submesh))
         return all;
     auto known = found_.find(item_place);
     if (known == found_.end())

@@ -70,8 +70,13 @@ std::uint32_t itemFeatures(const DrawItem& item, const GpuSceneState& scene, Sha
         features |= layout & kHasValue;
     if ((features & (kHasUv0 | kHasUv1)) == 0)
         features &= ~kAnyMap;
-    if (scene.submeshes[item.submesh].mirroring == Mirroring::Mixed &&
-        item.mode == PrimitiveMode::Triangles)
+    if (scene.pose.submeshes[item.submesh].posed)
+        features |= kPosed | (layout & (kHasJoints | kHasMoreJoints));
+    if (scene.pose.submeshes[item.submesh].morphed)
+        features |= layout & kMorphed;
+    if ((features & kNormalMap) != 0 && (features & kHasNormal) != 0)
+        features |= layout & kHasTangent;
+    if (scene.mirroring(item.submesh) == Mirroring::Mixed && item.mode == PrimitiveMode::Triangles)
         features |= kMixedMirror;
     return features;
 }
@@ -125,6 +130,7 @@ public:
             bindMaterial();
         }
         bindFacing(item);
+        bindPose(item);
         if (program_->submesh_color >= 0)
             glUniform4fv(program_->submesh_color, 1, glm::value_ptr(submeshColor(item)));
         glBindVertexArray(item.vertex_array.name());
@@ -163,8 +169,22 @@ private:
         }
     }
 
+    void bindPose(const DrawItem& item) const {
+        if ((features_ & (kPosed | kMorphed)) == 0)
+            return;
+        const GpuGeometry& geometry = *item.geometry;
+        glActiveTexture(GL_TEXTURE0 + kPoseUnit);
+        glBindTexture(GL_TEXTURE_BUFFER, scene_.pose_texture.name());
+        glActiveTexture(GL_TEXTURE0 + kMorphUnit);
+        glBindTexture(GL_TEXTURE_BUFFER, geometry.morph_texture.name());
+        glUniform1i(program_->pose_row, scene_.pose.submeshes[item.submesh].first_row);
+        glUniform2i(program_->morph_shape,
+                    static_cast<GLint>(geometry.morph_targets),
+                    static_cast<GLint>(geometry.vertex_count));
+    }
+
     void bindFacing(const DrawItem& item) const {
-        const Mirroring mirroring = scene_.submeshes[item.submesh].mirroring;
+        const Mirroring mirroring = scene_.mirroring(item.submesh);
         const bool culls = options_.back_faces == BackFaces::PerMaterial &&
                            !scene_.materials[item.material].double_sided;
         const bool is_mixed = mirroring == Mirroring::Mixed;
@@ -270,6 +290,10 @@ void resetState() {
         glBindSampler(unit, 0);
         glActiveTexture(GL_TEXTURE0 + unit);
         glBindTexture(GL_TEXTURE_2D, 0);
+    }
+    for (const GLuint unit : {kPoseUnit, kMorphUnit}) {
+        glActiveTexture(GL_TEXTURE0 + unit);
+        glBindTexture(GL_TEXTURE_BUFFER, 0);
     }
     glActiveTexture(GL_TEXTURE0);
 }

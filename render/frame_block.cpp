@@ -20,12 +20,22 @@ glm::vec4 floorOf(const GpuSceneState& scene) {
     return {height, scene.frame.radius / spacing, phase.x, phase.y};
 }
 
+// The camera with its near and far planes around what the pose may have moved out, too.
+OrbitCamera reaching(OrbitCamera camera, const Bounds& reach) {
+    if (!reach.empty)
+        camera.scene_radius =
+            std::max(camera.scene_radius,
+                     glm::length(reach.center() - camera.scene_center) + reach.diagonal() * 0.5);
+    return camera;
+}
+
 } // namespace
 
 FrameBlock frameBlock(const View::Input& input, const Antialiasing& antialiasing) {
     const SceneFrame& frame = input.scene->state().frame;
     const glm::dmat4 view = viewMatrix(input.camera);
-    const glm::dmat4 projection = projectionMatrix(input.camera, input.size.aspect());
+    const glm::dmat4 projection = projectionMatrix(
+        reaching(input.camera, input.scene->state().pose.reach), input.size.aspect());
     const glm::dmat4 world_from_scene =
         glm::scale(glm::translate(glm::dmat4(1.0), frame.center), glm::dvec3(frame.radius));
     const glm::dmat3 axes = glm::transpose(glm::dmat3(view));

@@ -3,6 +3,7 @@
 #include "render/gl_object.h"
 #include "scene/scene.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -22,12 +23,14 @@ LocalFrame localFrame(const Submesh& submesh);
 
 struct VertexLayout {
     GLsizei stride_bytes = 0;
-    std::uint32_t features = 0; // kHasNormal | kHasUv0 | kHasUv1 | kHasColor | kHasValue
+    std::uint32_t features = 0; // kHas..., kMorphed
     std::size_t normal_offset = 0;
     std::size_t uv0_offset = 0;
     std::size_t uv1_offset = 0;
     std::size_t color_offset = 0;
     std::size_t value_offset = 0;
+    std::size_t tangent_offset = 0;
+    std::size_t joints_offset[2] = {0, 0}; // four uint16, then four floats
 };
 
 struct GpuGeometry {
@@ -40,6 +43,11 @@ struct GpuGeometry {
     GLenum index_type = GL_UNSIGNED_INT;
     std::uint32_t index_count = 0; // 0: drawn without indices
     std::uint32_t vertex_count = 0;
+    // Texels of four floats, a delta of position and one of the normal for each vertex of each
+    // morph target.
+    GlBuffer morphs;
+    GlTexture morph_texture; // of `morphs`
+    std::uint32_t morph_targets = 0;
     std::uint64_t bytes = 0;
 };
 
@@ -57,6 +65,8 @@ struct PackedGeometry {
     std::uint32_t vertex_count = 0;
     std::vector<std::byte> vertices;
     std::vector<std::byte> indices;
+    std::vector<std::byte> morphs;
+    std::uint32_t morph_targets = 0;
 };
 
 // Any thread; no GL. Cost: 25 ns a vertex, with normals to smooth 400 ns a triangle.
@@ -76,6 +86,10 @@ struct InstanceRow {
     glm::vec4 rows[3];
     std::uint32_t id = 0;
 };
+
+// Scene from local (packed) coordinates; all zero where it is not finite.
+std::array<glm::vec4, 3>
+sceneRows(const glm::dmat4& world, const SceneFrame& scene, const LocalFrame& local);
 
 struct InstanceBuffer {
     std::shared_ptr<const std::vector<std::uint32_t>> order; // null: the scene's order
@@ -109,7 +123,7 @@ std::size_t copyToBuffer(const GlBuffer& buffer,
 // base instance.
 void pointAtInstances(const InstanceBuffer& instances, std::uint32_t first);
 
-// Attributes 0..4 and 9 from the geometry, 5..8 from the instances, indices bound.
+// Attributes 0..4 and 9..14 from the geometry, 5..8 from the instances, indices bound.
 GlVertexArray makeVertexArray(const GpuGeometry& geometry, const InstanceBuffer& instances);
 
 } // namespace lodestone

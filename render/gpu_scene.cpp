@@ -47,12 +47,15 @@ std::uint32_t materialFeatures(const Material& material) {
 
 GpuSceneState::GpuSceneState(std::shared_ptr<RendererState> shared, PreparedScenePtr source)
     : renderer(std::move(shared)), scene(source->scene), bounds(source->bounds),
-      frame(source->frame), submeshes(source->submeshes), prepared_(std::move(source)) {}
+      frame(source->frame), submeshes(source->submeshes), rig_(source->rig), rest_(source->rest),
+      prepared_(std::move(source)) {}
 
 void GpuSceneState::open() {
     revision = renderer->nextRevision();
     openTextures();
     openMaterials();
+    notes.insert(notes.end(), rig_->notes.begin(), rig_->notes.end());
+    uploadPose();
 }
 
 // Names only: the pictures follow one by one.
@@ -321,6 +324,10 @@ Result<LodPackage> GpuScene::package(const Lod& lod) const {
 
 void GpuScene::offer(const LodPackage& package) {
     state_->offer(package);
+}
+
+void GpuScene::setMoment(const Moment& moment) {
+    state_->setMoment(moment);
 }
 
 const ScenePtr& GpuScene::scene() const {

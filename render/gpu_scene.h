@@ -5,6 +5,7 @@
 #include "render/prepared_scene.h"
 #include "render/renderer.h"
 #include "scene/lod.h"
+#include "scene/pose.h"
 
 #include <cstdint>
 #include <memory>
@@ -74,7 +75,10 @@ public:
 
     // Hidden submeshes are not drawn in any LOD. Empty: all shown.
     void setHiddenSubmeshes(std::vector<bool> hidden); // [submeshes] or empty
-    std::uint64_t revision() const;                    // changes with setHiddenSubmeshes
+    // What all LODs are drawn as, at rest at first. Costs nothing if it is the last one, else a
+    // few bytes for each joint and moving instance go to the GPU.
+    void setMoment(const Moment& moment);
+    std::uint64_t revision() const; // changes with what the two calls above change
 
     const GpuSceneState& state() const { return *state_; }
 

@@ -1,5 +1,6 @@
 #pragma once
 // Inside render/ only: what GpuScene and LodHandle own.
+#include "render/gpu_pose.h"
 #include "render/gpu_scene.h"
 #include "render/lod_package_parts.h"
 #include "render/prepared_scene_parts.h"
@@ -59,6 +60,21 @@ public:
     void offer(const LodPackage& package);
     Result<UploadReport> update(std::unique_ptr<LodState>& handle, const Lod& lod);
     std::uint64_t memoryBytes() const;
+    void setMoment(const Moment& moment);
+
+    // Of an instance in the pose that is drawn; one with a skin has none.
+    const glm::dmat4& transform(std::uint32_t instance) const {
+        return pose.transforms.empty() ? scene->instances[instance].transform
+                                       : pose.transforms[instance];
+    }
+
+    bool isPosed(std::uint32_t submesh) const {
+        return pose.submeshes[submesh].posed || pose.submeshes[submesh].morphed;
+    }
+
+    // Positions as a posed instance shows them, in the world.
+    std::vector<glm::dvec3> posedPositions(const Geometry& geometry, std::uint32_t instance) const;
+    Mirroring mirroring(std::uint32_t submesh) const;
 
     std::shared_ptr<RendererState> renderer;
     ScenePtr scene;
@@ -70,8 +86,11 @@ public:
     std::vector<std::string> notes;
     std::vector<bool> hidden; // [submeshes] or empty
     std::uint64_t revision = 0;
+    PackedPose pose; // that is drawn
+    GlTexture pose_texture;
 
 private:
+    void uploadPose();
     void openTextures();
     void openMaterials();
     Result<void> check(const Lod& lod) const;
@@ -80,6 +99,10 @@ private:
     std::unique_ptr<LodState> assemble(const Lod& lod, LodState* last, bool& changed);
     void forgetExpired();
 
+    RigPtr rig_;
+    Pose rest_;
+    Moment moment_;
+    GlBuffer pose_buffer_; // of pose_texture
     std::vector<GpuTexture> textures_;
     std::uint64_t texture_bytes_ = 0;
     template <class Key, class Value>

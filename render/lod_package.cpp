@@ -27,7 +27,7 @@ void LodPackage::pack() {
 
 namespace {
 
-// Vertices first, then indices. Returns the number of bytes copied.
+// Vertices first, then indices, then morph targets. Returns the number of bytes copied.
 std::size_t copyGeometry(const PackedGeometry& packed,
                          const GpuGeometry& gpu,
                          std::size_t begin,
@@ -36,6 +36,10 @@ std::size_t copyGeometry(const PackedGeometry& packed,
     if (begin + count >= packed.vertices.size())
         count += copyToBuffer(
             gpu.indices, packed.indices, begin + count - packed.vertices.size(), most - count);
+    const std::size_t before_morphs = packed.vertices.size() + packed.indices.size();
+    if (begin + count >= before_morphs)
+        count +=
+            copyToBuffer(gpu.morphs, packed.morphs, begin + count - before_morphs, most - count);
     return count;
 }
 

@@ -109,6 +109,8 @@ private:
     }
 
     double depthOf(const DrawItem& item, const Ball& ball, std::uint32_t instance) const {
+        if (scene_.isPosed(item.submesh))
+            return posedDepthOf(item, instance);
         const glm::dmat4& transform = scene_.scene->instances[instance].transform;
         const double determinant = glm::determinant(glm::dmat3(transform));
         if (!mayHit(ball, transform, ray_) || determinant == 0.0 || !std::isfinite(determinant))
@@ -116,10 +118,24 @@ private:
         const glm::dmat4 local = glm::inverse(transform);
         const Ray ray{glm::dvec3(local * glm::dvec4(ray_.origin, 1.0)),
                       glm::dvec3(local * glm::dvec4(ray_.direction, 0.0))};
+        return hitDepth(*item.geometry->source, ray, facesOf(item), smallest_depth_);
+    }
+
+    // O(vertices): what a pose deforms has no ball of its own.
+    double posedDepthOf(const DrawItem& item, std::uint32_t instance) const {
+        const Geometry& source = *item.geometry->source;
+        Geometry posed;
+        for (const glm::dvec3& position : scene_.posedPositions(source, instance))
+            posed.positions.emplace_back(position);
+        posed.indices = source.indices;
+        const bool is_mirrored = scene_.mirroring(item.submesh) != Mirroring::None;
+        return hitDepth(posed, ray_, is_mirrored ? Faces::Both : facesOf(item), smallest_depth_);
+    }
+
+    Faces facesOf(const DrawItem& item) const {
         const bool culls = options_.back_faces == BackFaces::PerMaterial &&
                            !scene_.materials[item.material].double_sided;
-        return hitDepth(
-            *item.geometry->source, ray, culls ? Faces::Front : Faces::Both, smallest_depth_);
+        return culls ? Faces::Front : Faces::Both;
     }
 
     const GpuSceneState& scene_;

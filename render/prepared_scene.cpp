@@ -51,6 +51,7 @@ std::vector<GpuSubmesh> submeshesOf(const Scene& scene) {
     std::vector<GpuSubmesh> submeshes(scene.submeshes.size());
     for (std::uint32_t i = 0; i < submeshes.size(); ++i) {
         submeshes[i].frame = localFrame(scene.submeshes[i]);
+        submeshes[i].box = localBounds(scene.submeshes[i]);
         submeshes[i].range = ranges[i];
         submeshes[i].mirroring = mirroringOf(scene, ranges[i]);
         submeshes[i].id_color = submeshColor(i);
@@ -81,6 +82,8 @@ PreparedScenePtr prepareScene(ScenePtr scene, int max_texture_size_px) {
     prepared->submeshes = submeshesOf(*scene);
     prepared->wishes = wishesOf(*scene);
     prepared->images = decodeImages(*scene, prepared->wishes, max_texture_size_px);
+    prepared->rig = readRig(*scene);
+    prepared->rest = poseAt(*prepared->rig, {});
     prepared->scene = std::move(scene);
     return prepared;
 }

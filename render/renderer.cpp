@@ -10,7 +10,7 @@ namespace lodestone {
 
 namespace {
 
-constexpr std::array<std::string_view, 27> kFeatureNames{
+constexpr std::array<std::string_view, 32> kFeatureNames{
     "HAS_NORMAL",    "HAS_UV0",          "HAS_UV1",
     "HAS_COLOR",     "MIXED_MIRROR",     "BY_INSTANCE",
     "WIREFRAME",     "BASE_MAP",         "METALLIC_ROUGHNESS_MAP",
@@ -19,7 +19,9 @@ constexpr std::array<std::string_view, 27> kFeatureNames{
     "NO_SURFACE",    "FACETS",           "SHADE_LIT",
     "SHADE_CLAY",    "SHADE_BASE_COLOR", "SHADE_UV",
     "SHADE_SUBMESH", "SHADE_NORMALS",    "HAS_VALUE",
-    "SHADE_MATCAP",  "SHADE_VALUE",      "HIGHLIGHT"};
+    "SHADE_MATCAP",  "SHADE_VALUE",      "HIGHLIGHT",
+    "POSED",         "HAS_JOINTS",       "HAS_MORE_JOINTS",
+    "MORPHED",       "HAS_TANGENT"};
 
 constexpr std::array<const char*, kMaterialMaps> kMapNames{
     "base_color_map", "metallic_roughness_map", "normal_map", "occlusion_map", "emissive_map"};
@@ -97,7 +99,11 @@ Result<const SceneProgram*> RendererState::sceneProgram(std::uint32_t features) 
     bindBlock(name, "Material", kMaterialBinding);
     scene_program.submesh_color = glGetUniformLocation(name, "submesh_color");
     scene_program.cull_back = glGetUniformLocation(name, "cull_back");
+    scene_program.pose_row = glGetUniformLocation(name, "pose_row");
+    scene_program.morph_shape = glGetUniformLocation(name, "morph_shape");
     glUseProgram(name);
+    glUniform1i(glGetUniformLocation(name, "pose"), static_cast<GLint>(kPoseUnit));
+    glUniform1i(glGetUniformLocation(name, "morph_deltas"), static_cast<GLint>(kMorphUnit));
     for (std::size_t unit = 0; unit < kMapNames.size(); ++unit)
         glUniform1i(glGetUniformLocation(name, kMapNames[unit]), static_cast<GLint>(unit));
     return &programs_.emplace(features, std::move(scene_program)).first->second;

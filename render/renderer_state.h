@@ -40,6 +40,11 @@ enum Feature : std::uint32_t {
     kShadeMatcap = 1u << 24,
     kShadeValue = 1u << 25,
     kHighlight = 1u << 26, // one translucent colour over what is drawn
+    kPosed = 1u << 27,     // transforms from the pose's texels
+    kHasJoints = 1u << 28,
+    kHasMoreJoints = 1u << 29, // joints five to eight
+    kMorphed = 1u << 30,
+    kHasTangent = 1u << 31,
 };
 
 constexpr std::uint32_t kAnyMap =
@@ -50,6 +55,8 @@ struct SceneProgram {
     GlProgram program;
     GLint submesh_color = -1;
     GLint cull_back = -1;
+    GLint pose_row = -1;
+    GLint morph_shape = -1;
 };
 
 struct SamplerKey {
@@ -62,6 +69,10 @@ struct SamplerKey {
                std::tie(other.wrap_u, other.wrap_v, other.nearest);
     }
 };
+
+// Units of the texture buffers, behind the maps.
+constexpr GLuint kPoseUnit = kMaterialMaps;
+constexpr GLuint kMorphUnit = kMaterialMaps + 1;
 
 // Uniform blocks: binding points.
 constexpr GLuint kFrameBinding = 0;

@@ -185,6 +185,11 @@ Geometry withSmoothNormals(const Geometry& geometry) {
         result.positions.push_back(geometry.positions[source]);
     for (const Attribute& attribute : geometry.attributes)
         result.attributes.push_back(gathered(attribute, split.sources));
+    for (const MorphTarget& target : geometry.morph_targets) {
+        result.morph_targets.emplace_back();
+        for (const Attribute& attribute : target.attributes)
+            result.morph_targets.back().attributes.push_back(gathered(attribute, split.sources));
+    }
     Attribute normal;
     normal.semantic = "NORMAL";
     normal.bytes.resize(split.normals.size() * sizeof(glm::vec3));

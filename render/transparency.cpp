@@ -35,8 +35,8 @@ std::vector<BlendedInstance> backToFront(const View::Input& input) {
         const auto& order = item->instances->order;
         for (std::uint32_t place = 0; place < item->kept_instances; ++place) {
             const std::uint32_t id = order ? (*order)[place] : submesh.range.begin + place;
-            const glm::dvec4 middle = scene.scene->instances[id].transform *
-                                      glm::dvec4(item->geometry->source_center, 1.0);
+            const glm::dvec4 middle =
+                scene.transform(id) * glm::dvec4(item->geometry->source_center, 1.0);
             sorted.push_back({item, place, -(view * middle).z});
         }
     }

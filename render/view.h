@@ -54,6 +54,7 @@ struct ViewOptions {
     float value_full = 1.0f;                 // > 0; the value that has the last colour
     std::vector<Highlight> highlighted;      // what the scene does not have is ignored
     glm::vec3 highlight_srgb{0.30f, 0.76f, 0.63f};
+    Moment moment; // of the scene's animations; GpuScene::setMoment() first
     // 1: hard edges. Else MSAA, clamped to what the GPU has; software renderers, which are slow at
     // that, draw LODs of many triangles 2 x 2 as large instead. 1 while dragging is cheapest.
     int samples = 4;

@@ -148,6 +148,7 @@ Result<bool> ViewSet::drawItem(Item& item,
         item.draft = Item::Uploaded();
     }
     item.scene = wanted.scene.get();
+    scene.setMoment(options.moment);
     Item::Uploaded& shown = wanted.draft ? item.draft : item.full;
     const std::shared_ptr<const Lod>& lod = wanted.draft ? wanted.draft : wanted.lod;
     if (!shown.handle.valid() || shown.lod != lod) {

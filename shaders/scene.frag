@@ -105,11 +105,19 @@ vec3 shadingNormal() {
 }
 
 #ifdef NORMAL_MAP
-// Tangent frame from screen derivatives: no tangents needed, right for mirrored charts too.
+// Tangent frame: the file's tangents (the convention of MikkTSpace), else from screen derivatives,
+// which is right for mirrored charts too.
 vec3 mappedNormal(vec3 n) {
     vec2 uv = textureUv(2);
     vec3 texel = texture(normal_map, uv).xyz * 2.0 - 1.0;
     texel.xy *= material.factors.z;
+#ifdef HAS_TANGENT
+    if (dot(surface.tangent.xyz, surface.tangent.xyz) > 1e-8) {
+        vec3 along = normalize(surface.tangent.xyz) * (frontFacing() ? 1.0 : -1.0);
+        vec3 over = cross(n, along) * surface.tangent.w * (frontFacing() ? 1.0 : -1.0);
+        return normalize(along * texel.x + over * texel.y + n * texel.z);
+    }
+#endif
     vec3 dp_x = dFdx(surface.position);
     vec3 dp_y = dFdy(surface.position);
     vec2 duv_x = dFdx(uv);

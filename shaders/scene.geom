@@ -58,6 +58,9 @@ void main() {
 #ifdef HAS_VALUE
         surface.value = corner[i].value;
 #endif
+#ifdef HAS_TANGENT
+        surface.tangent = corner[i].tangent;
+#endif
         edges.distance_px = vec3(0.0);
         edges.distance_px[i] = altitude_px[i];
         edges.strength = strength;
