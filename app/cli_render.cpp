@@ -19,6 +19,8 @@ struct RenderOptions {
     std::string camera;
     std::string file_camera;
     std::string shading = "lit";
+    std::string animation;
+    std::string time;
     std::string compare; // ids; empty: the file itself
     TargetTexts target;
     bool wireframe = false;
@@ -98,12 +100,56 @@ Result<void> parseView(const RenderOptions& options, RenderRequest& request) {
     return {};
 }
 
+Result<void> parseMoment(const RenderOptions& options, RenderRequest& request) {
+    constexpr std::uint64_t kMostAnimations = 1'000'000;
+    constexpr double kLongestSeconds = 1e9;
+    if (options.animation.empty() && !options.time.empty())
+        return fail(ErrorKind::Usage,
+                    "--time needs --animation with the animation it is a time of");
+    if (options.animation.empty())
+        return {};
+    const auto index = parseCount("--animation", options.animation, 0, kMostAnimations);
+    if (!index)
+        return tl::unexpected<Error>(index.error());
+    request.moment.animation = static_cast<std::uint32_t>(*index);
+    if (options.time.empty())
+        return {};
+    const auto time = parseNumber("--time", options.time, 0.0, kLongestSeconds);
+    if (!time)
+        return tl::unexpected<Error>(time.error());
+    request.moment.time_s = *time;
+    return {};
+}
+
+// What the options name is in the file.
+Result<void>
+checkNamed(const RenderOptions& options, const RenderRequest& request, const Scene& scene) {
+    if (request.file_camera && *request.file_camera >= scene.cameras.size())
+        return fail(ErrorKind::Usage,
+                    fmt::format("--file-camera {}: {} has {} cameras, counted from 0",
+                                *request.file_camera,
+                                options.input,
+                                scene.cameras.size()));
+    if (request.moment.animation == kNone)
+        return {};
+    const std::size_t animations = readRig(scene)->animations.size();
+    if (request.moment.animation >= animations)
+        return fail(ErrorKind::Usage,
+                    fmt::format("--animation {}: {} has {} animations, counted from 0",
+                                request.moment.animation,
+                                options.input,
+                                animations));
+    return {};
+}
+
 Result<ParsedRender> parseRender(const RenderOptions& options) {
     static constexpr std::array<std::string_view, 1> kPictures = {".png"};
     ParsedRender parsed;
     parsed.request.path = options.output;
     if (Result<void> view = parseView(options, parsed.request); !view)
         return tl::unexpected<Error>(std::move(view.error()));
+    if (Result<void> moment = parseMoment(options, parsed.request); !moment)
+        return tl::unexpected<Error>(std::move(moment.error()));
     if (Result<void> columns = parseColumns(options, parsed); !columns)
         return tl::unexpected<Error>(std::move(columns.error()));
     if (Result<void> output = checkOutput(options.output, kPictures); !output)
@@ -181,12 +227,8 @@ Result<void> runRender(const RenderOptions& options, const CliEnvironment& envir
     if (!input)
         return tl::unexpected<Error>(input.error());
     const RenderRequest& request = parsed->request;
-    if (request.file_camera && *request.file_camera >= input->scene->cameras.size())
-        return fail(ErrorKind::Usage,
-                    fmt::format("--file-camera {}: {} has {} cameras, counted from 0",
-                                *request.file_camera,
-                                options.input,
-                                input->scene->cameras.size()));
+    if (Result<void> named = checkNamed(options, request, *input->scene); !named)
+        return tl::unexpected<Error>(std::move(named.error()));
     const auto outcomes = runColumns(*parsed, input->scene, bar);
     if (!outcomes)
         return tl::unexpected<Error>(outcomes.error());
@@ -219,6 +261,10 @@ void addRenderCommand(CLI::App& app, ChosenCommand& chosen) {
     command.add_option("--file-camera", options->file_camera, "a camera of the file, from 0")
         ->type_name("INDEX");
     command.add_option("--shading", options->shading, "one of " + shadingList())->type_name("MODE");
+    command.add_option("--animation", options->animation, "of the file, from 0 (default: at rest)")
+        ->type_name("INDEX");
+    command.add_option("--time", options->time, "seconds into the animation (default 0)")
+        ->type_name("S");
     command.add_flag("--wireframe", options->wireframe, "edges over the shading");
     command
         .add_option("--compare",

@@ -3,6 +3,7 @@
 #include "app/view_state.h"
 #include "scene/job_context.h"
 #include "scene/lod.h"
+#include "scene/pose.h"
 #include "scene/result.h"
 #include "simplify/measure/image_difference.h"
 
@@ -31,6 +32,7 @@ struct RenderRequest {
     std::optional<std::uint32_t> file_camera; // in Scene::cameras, in range
     ShadingMode shading = ShadingMode::Lit;
     bool wireframe = false;
+    Moment moment;              // of the scenes' animations
     bool measure = false;       // also time each column
     std::filesystem::path path; // PNG, written atomically
 };

@@ -1,7 +1,7 @@
 #pragma once
 // What all lanes share on screen: camera, light, shading, selection. Plain values; no GL.
 #include "app/color_map.h"
-#include "scene/scene.h"
+#include "scene/pose.h"
 
 #include <compare>
 #include <optional>
@@ -63,6 +63,7 @@ struct DisplayOptions {
     Navigation navigation = Navigation::Lodestone;
     double light_azimuth_deg = 30.0; // relative to the camera
     double light_elevation_deg = 50.0;
+    Moment moment; // of the scene's animations; at rest at first
 
     friend bool operator==(const DisplayOptions&, const DisplayOptions&) = default;
 };

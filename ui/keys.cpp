@@ -25,7 +25,7 @@ constexpr double kShineStep = 1.25;
 constexpr DragKey kAnimationDrag = 0x414e494d45ull; // a whole animation is one undo step
 constexpr DragKey kStepDrag = 0x5354455053ull; // collapsing while a key is held is one undo step
 
-constexpr std::array<Shortcut, 35> kShortcuts = {{
+constexpr std::array<Shortcut, 36> kShortcuts = {{
     {"Left drag", "orbit (also Alt+left, middle)"},
     {"Right drag", "pan (also Shift+middle)"},
     {"Wheel", "zoom"},
@@ -35,6 +35,7 @@ constexpr std::array<Shortcut, 35> kShortcuts = {{
     {"Numpad 5", "perspective or parallel"},
     {"1 / 0", "left drag moves the light / the camera"},
     {"A", "animate the active lane down and up"},
+    {"P", "play or stop the file's animation"},
     {"Tab", "hide or show the panels"},
     {"Space", "grid, or two lanes split by a divider"},
     {"N", "normals"},
@@ -135,6 +136,8 @@ void viewKeys(const Ui& ui, DisplayOptions view, WindowState& state) {
         view.shininess = std::clamp(view.shininess * factor, 0.1, 10.0);
         ui.push(SetView{view});
     }
+    if (pressed('P') && state.playback.rig && !state.playback.rig->animations.empty())
+        state.playback.playing = !state.playback.playing;
     if (pressed('1'))
         state.drag_moves_light = true;
     if (pressed('0'))

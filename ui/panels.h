@@ -38,6 +38,8 @@ void drawLaneChart(const Ui& ui,
                    const Area& area);
 void drawStatusBar(Ui ui, const PanelInput& input, WindowState& state, const Area& area);
 void drawToast(Ui ui, const PanelInput& input, WindowState& state, const Area& area);
+// Play, the animation's name and its time, over the views; nothing for a scene that cannot move.
+void drawPlayback(Ui ui, const PanelInput& input, WindowState& state, const Area& area);
 void drawWelcome(Ui ui, const PanelInput& input, WindowState& state, const Area& area);
 // Open, Export, Shortcuts, About, Quit: whichever state.dialog names.
 void drawDialogs(Ui ui, const PanelInput& input, WindowState& state);

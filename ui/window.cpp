@@ -17,6 +17,8 @@ void logState(UiLog& log, const WindowState& state, const DisplayOptions& view) 
         ",\"views\":" + std::to_string(state.views.size()) +
         ",\"wireframe\":" + (view.wireframe ? "true" : "false") + ",\"compare\":\"" +
         std::string(compareName(view.compare)) + "\",\"grid\":" + (view.grid ? "true" : "false") +
+        ",\"playing\":" + (state.playback.playing ? "true" : "false") +
+        ",\"time_s\":" + std::to_string(view.moment.time_s) +
         ",\"shininess\":" + std::to_string(view.shininess) +
         ",\"error_chart\":" + (state.chart == ChartKind::Error ? "true" : "false") +
         ",\"shading\":\"" + std::string(shadingName(view.shading)) + "\"";
@@ -52,6 +54,7 @@ void Window::draw(const WindowFacts& facts,
         drawComparePanel(ui, input, state_, layout.compare);
     }
     drawStatusBar(ui, input, state_, layout.status);
+    drawPlayback(ui, input, state_, layout.grid);
     drawWelcome(ui, input, state_, layout.grid);
     drawToast(ui, input, state_, layout.grid);
     drawDialogs(ui, input, state_);

@@ -66,6 +66,13 @@ struct Animation {
     double begin_s = 0.0;
 };
 
+// The animations of the scene, and whether time passes.
+struct Playback {
+    ScenePtr scene;
+    RigPtr rig; // of the scene; null without one
+    bool playing = false;
+};
+
 // The scene panel's list: heaviest submeshes first.
 struct SubmeshOrder {
     ScenePtr scene;
@@ -83,6 +90,7 @@ struct WindowState {
     bool quit = false;             // answered: really
     bool drag_moves_light = false; // a left drag in a view
     Animation animation;
+    Playback playback;
     ChartKind chart = ChartKind::Size;
     std::string sheet_filter; // of the list of keys
     SubmeshOrder submesh_order;

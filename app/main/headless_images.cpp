@@ -164,9 +164,10 @@ private:
                                           const RenderRequest& request,
                                           const ImageColumn& column,
                                           std::optional<OrbitCamera>& camera) {
-        const auto uploaded = upload(renderer, column);
+        auto uploaded = upload(renderer, column);
         if (!uploaded)
             return tl::unexpected<Error>(uploaded.error());
+        uploaded->scene.setMoment(request.moment);
         auto view = View::create(renderer);
         if (!view)
             return tl::unexpected<Error>(std::move(view.error()));
@@ -179,6 +180,7 @@ private:
         input.options.shading = shadingFor(request.shading);
         input.options.value_colors = valueColors(ColorMap::Viridis);
         input.options.wireframe = request.wireframe;
+        input.options.moment = request.moment;
         input.size = {static_cast<int>(request.width_px), static_cast<int>(request.height_px)};
         if (const auto drawn = view->draw(input); !drawn)
             return tl::unexpected<Error>(drawn.error());

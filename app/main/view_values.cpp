@@ -87,6 +87,7 @@ ViewOptions viewOptions(const DisplayOptions& display, double value_full) {
     options.background_srgb = backdropColor(display.backdrop);
     options.grid = display.grid;
     options.shininess = static_cast<float>(display.shininess);
+    options.moment = display.moment;
     options.value_colors = valueColors(display.colors);
     if (display.compare == CompareMode::HeatMap) {
         options.shading = Shading::ByValue;
