@@ -26,6 +26,7 @@ class CollapseMethod;
 struct CollapseOptions {
     double boundary_weight = 1.0;    // x the squared edge length, >= 0
     bool boundary_by_length = false; // paper-literal: weight by length instead of squared length
+    double silhouette_weight = 0.0;  // x the squared edge length and the share of directions, >= 0
     double flip_angle_deg = 80.0;    // collapses that turn a face further are rejected, 0..180
     AttributeWeights attributes;
     // Collapses that end a seam or merge two, 0..1. 0: never. Else they cost 1 / this more.
@@ -185,6 +186,7 @@ protected: // what another metric on the same mesh builds on
     bool seamBetween(std::uint32_t face_a, std::uint32_t face_b, std::uint32_t vertex) const;
     void addBoundaryQuadrics(std::uint32_t a);
     void addBoundaryQuadric(std::uint32_t a, std::uint32_t b, std::uint32_t face);
+    void addSilhouetteQuadric(std::uint32_t a, std::uint32_t b, Float3 normal_a, Float3 normal_b);
     Float3 faceNormal(const Corners& face) const; // not normalised
 
     // Two faces on an edge that are this close to lying back to back are a border, not a fold: the
@@ -234,6 +236,7 @@ protected: // what another metric on the same mesh builds on
     void releaseWedge(std::uint32_t wedge);
     void addVersion(std::uint32_t wedge, Float3 position);
     void blendValues(std::uint32_t into, std::uint32_t from, float t);
+    void moveAlike(std::uint32_t wedge, std::uint32_t like);
 
     std::span<const std::uint32_t> facesAround(std::uint32_t v) const {
         return {refs_.data() + rings_[v].begin, rings_[v].count};

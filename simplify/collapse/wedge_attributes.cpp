@@ -64,8 +64,10 @@ WedgeAttributes::PrimitiveLayout layoutOf(const Geometry& geometry) {
     pairSkin(geometry, layout);
     for (const MorphTarget& target : geometry.morph_targets) {
         std::vector<Slot>& slots = layout.morph_slots.emplace_back();
-        for (const Attribute& attribute : target.attributes)
+        for (const Attribute& attribute : target.attributes) {
             slots.push_back(slotFor(attribute, Kind::Plain));
+            slots.back().moves = attribute.semantic == "POSITION";
+        }
     }
     std::uint32_t offset = 0;
     const auto place = [&](Slot& slot) {

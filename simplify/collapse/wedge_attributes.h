@@ -26,6 +26,7 @@ struct WedgeAttributes {
         Kind kind = Kind::Carried;
         std::uint32_t offset = 0;
         std::uint32_t components = 0; // 0: Carried
+        bool moves = false;           // it moves the vertex: positions of a morph target
         std::array<float, 4> low{};   // what the file's values span
         std::array<float, 4> high{};
     };

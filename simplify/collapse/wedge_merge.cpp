@@ -174,6 +174,34 @@ void ComponentMesh::blendValues(std::uint32_t into, std::uint32_t from, float t)
         blendSkin(to, other, t, layout.skin);
 }
 
+// Joints and morph targets move a wedge as they move another one that lies at the same place: else
+// seams would open as soon as the mesh moves.
+void ComponentMesh::moveAlike(std::uint32_t wedge, std::uint32_t like) {
+    const auto& to_layout = attributes_.primitives[wedge_primitive_[wedge]];
+    const auto& from_layout = attributes_.primitives[wedge_primitive_[like]];
+    float* to = values_.data() + std::size_t{wedge} * attributes_.size;
+    const float* from = values_.data() + std::size_t{like} * attributes_.size;
+    if (to_layout.skin.size() == from_layout.skin.size())
+        for (std::size_t set = 0; set < to_layout.skin.size(); ++set) {
+            constexpr std::size_t kInfluences = 4;
+            std::copy_n(
+                from + from_layout.skin[set].joints, kInfluences, to + to_layout.skin[set].joints);
+            std::copy_n(from + from_layout.skin[set].weights,
+                        kInfluences,
+                        to + to_layout.skin[set].weights);
+        }
+    const auto moving = [](const WedgeAttributes::Slot& slot) { return slot.moves; };
+    const std::size_t targets =
+        std::min(to_layout.morph_slots.size(), from_layout.morph_slots.size());
+    for (std::size_t t = 0; t < targets; ++t) {
+        const auto into = std::ranges::find_if(to_layout.morph_slots[t], moving);
+        const auto source = std::ranges::find_if(from_layout.morph_slots[t], moving);
+        if (into != to_layout.morph_slots[t].end() && source != from_layout.morph_slots[t].end() &&
+            into->components == source->components)
+            std::copy_n(from + source->offset, source->components, to + into->offset);
+    }
+}
+
 // Wedges that meet in a face on the edge become one; the others of b move to a as they are, so that
 // seams stay seams and no crack opens.
 void ComponentMesh::mergeWedges(std::uint32_t a, float t) {
@@ -202,6 +230,10 @@ void ComponentMesh::mergeWedges(std::uint32_t a, float t) {
     touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
     for (const std::uint32_t wedge : touched)
         releaseWedge(wedge);
+    std::uint32_t like = merged_wedges_.empty() ? kNone : merged_wedges_.front().into;
+    for (const MergedWedges& merged : merged_wedges_)
+        if (merged.from == like)
+            like = merged.into;
     for (const std::uint32_t f : facesAround(a)) {
         const std::size_t k = faces_[f][0] == a ? 0 : faces_[f][1] == a ? 1 : 2;
         const std::uint32_t wedge = face_wedges_[f][k];
@@ -219,6 +251,8 @@ void ComponentMesh::mergeWedges(std::uint32_t a, float t) {
             continue;
         if (wedge_quadrics_.active())
             takeBestValues(wedge);
+        if (!attributes_.motion.empty() && like != kNone && wedge != like)
+            moveAlike(wedge, like);
         addVersion(wedge, points_[a].position);
     }
 }
