@@ -309,6 +309,8 @@ void ComponentMesh::addBoundaryQuadrics(std::uint32_t a) {
             --borders;
             if (seamBetween(first, face, a) || seamBetween(first, face, b))
                 addBoundaryQuadric(a, b, first);
+            if (options_.silhouette_weight > 0.0)
+                addSilhouetteQuadric(a, b, normals_[first], normals_[face]);
         }
     if (borders == 0)
         return;
@@ -350,6 +352,38 @@ void ComponentMesh::addBoundaryQuadric(std::uint32_t a, std::uint32_t b, std::ui
              static_cast<float>(plane.normal.y),
              static_cast<float>(plane.normal.z)},
             plane.weight);
+}
+
+// An edge is part of the outline for the share (angle between its faces) / pi of all directions;
+// from there the outline's error is the distance along some u between the faces' normals. Summed
+// over them, with m halfway and t across: integral of u u^T = (angle + sin) / 2 m m^T +
+// (angle - sin) / 2 t t^T. Weighted by the squared length, as borders are.
+void ComponentMesh::addSilhouetteQuadric(std::uint32_t a,
+                                         std::uint32_t b,
+                                         Float3 normal_a,
+                                         Float3 normal_b) {
+    const Float3 edge = points_[b].position - points_[a].position;
+    const Float3 middle = normal_a + normal_b;
+    const Float3 across = cross(edge, middle);
+    const float middle2 = dot(middle, middle);
+    const float across2 = dot(across, across);
+    if (!(dot(normal_a, normal_a) > 0.0f) || !(dot(normal_b, normal_b) > 0.0f) ||
+        !(middle2 > 1e-6f) || !(across2 > 0.0f))
+        return;
+    const float sine = std::sqrt(std::max(0.0f, 1.0f - 0.25f * middle2) * middle2);
+    const float angle = std::acos(std::clamp(dot(normal_a, normal_b), -1.0f, 1.0f));
+    const Float3 unit = middle * (1.0f / std::sqrt(middle2));
+    const double instances = weights_.uniform() ? 1.0 : weights_.face({unit.x, unit.y, unit.z});
+    const auto weight =
+        static_cast<float>(options_.silhouette_weight * instances *
+                           static_cast<double>(dot(edge, edge)) / (2.0 * std::numbers::pi));
+    for (const std::uint32_t v : {a, b}) {
+        addPlane(metrics_[v].quadric, unit, 0.0f, weight * (angle + sine));
+        addPlane(metrics_[v].quadric,
+                 across * (1.0f / std::sqrt(across2)),
+                 0.0f,
+                 weight * std::max(angle - sine, 0.0f));
+    }
 }
 
 double ComponentMesh::costScale() const {

@@ -78,6 +78,12 @@ std::vector<ParameterInfo> collapseParameters() {
         "many times more.";
     seams.fallback = CollapseOptions{}.seams;
     parameters.push_back(seams);
+    parameters.push_back(weightParameter(
+        "silhouette-weight",
+        "Silhouette weight",
+        "How firmly outlines stay in place: edges count by the share of directions that see them "
+        "as part of the outline. 1: as much as an open border there. 0: no more than the rest.",
+        CollapseOptions{}.silhouette_weight));
     return parameters;
 }
 
@@ -118,6 +124,7 @@ Result<EdgeCollapseOptions> readCollapseParameters(const Algorithm& algorithm,
     weights.normal = parameterValue(algorithm, values, "normal-weight");
     weights.color = parameterValue(algorithm, values, "color-weight");
     weights.motion = parameterValue(algorithm, values, "motion-weight");
+    options.collapse.silhouette_weight = parameterValue(algorithm, values, "silhouette-weight");
     options.collapse.seams = parameterValue(algorithm, values, "seams");
     options.remove_instances = parameterValue(algorithm, values, "remove-instances") > 0.5;
     options.remove_by_paper = parameterValue(algorithm, values, "removal-rule") > 0.5;
