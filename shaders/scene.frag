@@ -110,11 +110,13 @@ vec3 shadingNormal() {
 vec3 mappedNormal(vec3 n) {
     vec2 uv = textureUv(2);
     vec3 texel = texture(normal_map, uv).xyz * 2.0 - 1.0;
-    texel.xy *= material.factors.z;
+    // Seen from behind, the mapped normal is the reverse of the one in front, not its mirror image.
+    float side = frontFacing() ? 1.0 : -1.0;
+    texel.xy *= material.factors.z * side;
 #ifdef HAS_TANGENT
     if (dot(surface.tangent.xyz, surface.tangent.xyz) > 1e-8) {
-        vec3 along = normalize(surface.tangent.xyz) * (frontFacing() ? 1.0 : -1.0);
-        vec3 over = cross(n, along) * surface.tangent.w * (frontFacing() ? 1.0 : -1.0);
+        vec3 along = normalize(surface.tangent.xyz);
+        vec3 over = cross(n, along) * (surface.tangent.w * side); // n is turned to the eye
         return normalize(along * texel.x + over * texel.y + n * texel.z);
     }
 #endif
