@@ -372,6 +372,9 @@ void ComponentMesh::addSilhouetteQuadric(std::uint32_t a,
         return;
     const float sine = std::sqrt(std::max(0.0f, 1.0f - 0.25f * middle2) * middle2);
     const float angle = std::acos(std::clamp(dot(normal_a, normal_b), -1.0f, 1.0f));
+    constexpr float kFlat = 1e-3f; // what rounding makes of none
+    if (angle < kFlat)
+        return;
     const Float3 unit = middle * (1.0f / std::sqrt(middle2));
     const double instances = weights_.uniform() ? 1.0 : weights_.face({unit.x, unit.y, unit.z});
     const auto weight =

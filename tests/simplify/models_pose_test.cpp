@@ -10,6 +10,8 @@
 namespace lodestone {
 namespace {
 
+constexpr std::uint64_t kFewestForExtremities = 200; // triangles of a LOD
+
 // The largest way by which a face of one box lies off the other's, in units of the diagonal.
 double boxOff(const Bounds& box, const Bounds& original) {
     const glm::dvec3 lower = glm::abs(box.min - original.min);
@@ -26,6 +28,12 @@ bool deforms(const Scene& scene, const Rig& rig) {
             if (!primitive.geometry->morph_targets.empty())
                 return true;
     return false;
+}
+
+// How far a box reaches out of the other, in units of that one's diagonal.
+double boxOutside(const Bounds& box, const Bounds& original) {
+    const glm::dvec3 worst = glm::max(original.min - box.min, box.max - original.max);
+    return std::max(worst.x, std::max(worst.y, worst.z)) / original.diagonal();
 }
 
 // At rest, at moments all over every animation, and with each morph target all the way.
@@ -97,18 +105,25 @@ TEST_F(ModelsPose, NoVertexExplodesWhileASimplifiedModelMoves) {
             const Lod lod = (*source)->readOut(at.position, nullptr);
             const std::vector<Posture> shown_postures = posturesOf(*readRig(*shown));
             ASSERT_EQ(shown_postures.size(), postures.size()) << file;
+            // With so few triangles ears and toes are gone at rest already.
+            const bool keeps_extremities = lod.triangles >= kFewestForExtremities;
             double worst = 0.0;
+            double outside = 0.0;
             for (std::size_t p = 0; p < postures.size(); ++p) {
                 const Bounds was =
                     posedBounds(**scene, fullLod(**scene), postures[p].rig, postures[p].moment);
                 const Bounds is =
                     posedBounds(*shown, lod, shown_postures[p].rig, shown_postures[p].moment);
-                const double off = boxOff(is, was);
-                worst = std::max(worst, off);
-                EXPECT_LE(off, 0.01) << file << ' ' << id << ' ' << postures[p].name;
+                worst = std::max(worst, boxOff(is, was));
+                outside = std::max(outside, boxOutside(is, was));
+                EXPECT_LE(boxOutside(is, was), 0.01) << file << ' ' << id << postures[p].name;
+                if (keeps_extremities) {
+                    EXPECT_LE(boxOff(is, was), 0.01) << file << ' ' << id << postures[p].name;
+                }
             }
             std::cout << file.filename().string() << ' ' << id << ' ' << lod.triangles
-                      << " triangles, box off by at most " << 100.0 * worst << " %\n";
+                      << " triangles, box off by at most " << 100.0 * worst << " %, outside by "
+                      << 100.0 * outside << " %\n";
             ++compared;
         }
     }
