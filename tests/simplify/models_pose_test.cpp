@@ -10,7 +10,10 @@
 namespace lodestone {
 namespace {
 
-constexpr std::uint64_t kFewestForExtremities = 200; // triangles of a LOD
+// A LOD of fewer triangles lacks ears and toes at rest already; a vertex that flies off would still
+// put its box off by more than the second number.
+constexpr std::uint64_t kFewestForExtremities = 200;
+constexpr double kMostOfFew = 0.2;
 
 // The largest way by which a face of one box lies off the other's, in units of the diagonal.
 double boxOff(const Bounds& box, const Bounds& original) {
@@ -105,8 +108,7 @@ TEST_F(ModelsPose, NoVertexExplodesWhileASimplifiedModelMoves) {
             const Lod lod = (*source)->readOut(at.position, nullptr);
             const std::vector<Posture> shown_postures = posturesOf(*readRig(*shown));
             ASSERT_EQ(shown_postures.size(), postures.size()) << file;
-            // With so few triangles ears and toes are gone at rest already.
-            const bool keeps_extremities = lod.triangles >= kFewestForExtremities;
+            const double most = lod.triangles >= kFewestForExtremities ? 0.01 : kMostOfFew;
             double worst = 0.0;
             double outside = 0.0;
             for (std::size_t p = 0; p < postures.size(); ++p) {
@@ -116,10 +118,7 @@ TEST_F(ModelsPose, NoVertexExplodesWhileASimplifiedModelMoves) {
                     posedBounds(*shown, lod, shown_postures[p].rig, shown_postures[p].moment);
                 worst = std::max(worst, boxOff(is, was));
                 outside = std::max(outside, boxOutside(is, was));
-                EXPECT_LE(boxOutside(is, was), 0.01) << file << ' ' << id << postures[p].name;
-                if (keeps_extremities) {
-                    EXPECT_LE(boxOff(is, was), 0.01) << file << ' ' << id << postures[p].name;
-                }
+                EXPECT_LE(boxOff(is, was), most) << file << ' ' << id << ' ' << postures[p].name;
             }
             std::cout << file.filename().string() << ' ' << id << ' ' << lod.triangles
                       << " triangles, box off by at most " << 100.0 * worst << " %, outside by "
