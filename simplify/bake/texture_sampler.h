@@ -1,6 +1,6 @@
 #pragma once
 // What a scene's materials say at any point of a triangle.
-#include "scene/decoded_image.h"
+#include "simplify/measure/texture_images.h"
 
 namespace lodestone {
 
@@ -17,8 +17,7 @@ struct SurfaceLook {
 // Immutable once made; any number of threads.
 class TextureSampler {
 public:
-    // Decodes every image that a material uses, in parallel; those that cannot be read count as
-    // white and are named in notes(). scene must outlive it.
+    // Decodes every image that a material uses. scene must outlive it.
     explicit TextureSampler(const Scene& scene);
 
     // corners: vertices of the geometry. material: index or kNone.
@@ -27,30 +26,16 @@ public:
                    const std::array<std::uint32_t, 3>& corners,
                    const glm::vec3& weights) const;
 
-    const std::vector<std::string>& notes() const { return notes_; }
+    const std::vector<std::string>& notes() const { return images_.notes(); }
 
 private:
-    enum class Coding : std::uint8_t { Linear, Srgb };
-
-    glm::vec4 sample(const Geometry& geometry,
-                     const TextureRef& texture,
-                     const std::array<std::uint32_t, 3>& corners,
-                     const glm::vec3& weights,
-                     Coding coding) const;
     glm::vec3 shadingNormal(const Geometry& geometry,
                             const Material& material,
                             const std::array<std::uint32_t, 3>& corners,
                             const glm::vec3& weights) const;
 
     const Scene& scene_;
-    std::vector<DecodedImage> images_; // [scene.images], empty where no material uses it
-    std::vector<std::string> notes_;
+    TextureImages images_;
 };
-
-// An attribute at a point of a triangle; components beyond its own stay `fallback`.
-glm::vec4 blendAttribute(const Attribute& attribute,
-                         const std::array<std::uint32_t, 3>& corners,
-                         const glm::vec3& weights,
-                         const glm::vec4& fallback);
 
 } // namespace lodestone

@@ -1,15 +1,13 @@
 #pragma once
 // The colour of any point of a scene's surface.
-#include "scene/decoded_image.h"
+#include "simplify/measure/texture_images.h"
 
 namespace lodestone {
 
 // Immutable once made; any number of threads.
 class SurfaceColors {
 public:
-    // Decodes the base colour images of the scene's materials, in parallel: PNG, JPEG and
-    // WebP (whatever decodeImage knows); others are named in notes() and count as white. scene must
-    // outlive it.
+    // Decodes the base colour images of the scene's materials. scene must outlive it.
     explicit SurfaceColors(const Scene& scene);
 
     // sRGB, 0..1 each, of a point of a triangle. geometry: drawn with that material (index or
@@ -19,12 +17,11 @@ public:
                   std::size_t triangle,
                   const glm::dvec3& weights) const;
 
-    const std::vector<std::string>& notes() const { return notes_; }
+    const std::vector<std::string>& notes() const { return images_.notes(); }
 
 private:
     const Scene& scene_;
-    std::vector<DecodedImage> images_; // [scene.images], empty where no base colour uses it
-    std::vector<std::string> notes_;
+    TextureImages images_;
 };
 
 } // namespace lodestone
