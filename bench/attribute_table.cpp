@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <fmt/core.h>
 #include <iostream>
 
@@ -49,22 +48,12 @@ bool isTextured(const Scene& scene) {
            });
 }
 
-std::vector<std::filesystem::path> filesIn(const std::filesystem::path& models) {
-    std::vector<std::filesystem::path> files;
-    for (const char* folder : {"instanced", "textured", "features", "meshes"}) {
-        std::error_code absent;
-        for (const auto& entry :
-             std::filesystem::recursive_directory_iterator(models / folder, absent)) {
-            std::string extension = entry.path().extension().string();
-            std::ranges::transform(extension, extension.begin(), [](unsigned char c) {
-                return static_cast<char>(std::tolower(c));
-            });
-            if (entry.is_regular_file() &&
-                std::ranges::find(importExtensions(), extension) != importExtensions().end())
-                files.push_back(entry.path());
-        }
-    }
-    std::ranges::sort(files);
+// Those in bad/ are not meant to load.
+std::vector<std::filesystem::path> modelsIn(const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> files = importableFiles(folder);
+    std::erase_if(files, [&](const std::filesystem::path& file) {
+        return *file.lexically_relative(folder).begin() == "bad";
+    });
     return files;
 }
 
@@ -233,7 +222,7 @@ int addAttributeTable(AttributeTable& table,
                       const std::filesystem::path& models,
                       const TitleFilter& wanted) {
     int code = 0;
-    for (const std::filesystem::path& file : filesIn(models)) {
+    for (const std::filesystem::path& file : modelsIn(models)) {
         const std::string name = file.stem().string() + file.extension().string();
         if (!wanted(name))
             continue;

@@ -22,6 +22,10 @@ std::string lowerExtension(const std::filesystem::path& path) {
     return extension;
 }
 
+bool isImportable(std::string_view lower_extension) {
+    return std::ranges::find(kExtensions, lower_extension) != kExtensions.end();
+}
+
 std::string listExtensions() {
     std::string list;
     for (const std::string_view extension : kExtensions)
@@ -35,9 +39,21 @@ std::span<const std::string_view> importExtensions() {
     return kExtensions;
 }
 
+std::vector<std::filesystem::path> importableFiles(const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> files;
+    std::error_code error; // ends the walk
+    for (std::filesystem::recursive_directory_iterator at(folder, error), end; !error && at != end;
+         at.increment(error))
+        if (std::error_code unknown; // no such file any more: not one of them
+            isImportable(lowerExtension(at->path())) && at->is_regular_file(unknown))
+            files.push_back(at->path());
+    std::ranges::sort(files);
+    return files;
+}
+
 Result<ScenePtr> importScene(const std::filesystem::path& path, const JobContext& job) {
     const std::string extension = lowerExtension(path);
-    if (std::ranges::find(kExtensions, extension) == kExtensions.end())
+    if (!isImportable(extension))
         return badInput(path.filename().string() + ": unknown file type '" + extension +
                         "': use one of " + listExtensions());
     std::error_code error;

@@ -17,4 +17,8 @@ Result<ScenePtr> importScene(const std::filesystem::path& path, const JobContext
 // Extensions with dot, lower case, as importScene takes them: ".gltf", ".glb", ".dae", ...
 std::span<const std::string_view> importExtensions();
 
+// Every file below a folder that importScene takes by its extension, in order; none where the
+// folder is absent or cannot be read.
+std::vector<std::filesystem::path> importableFiles(const std::filesystem::path& folder);
+
 } // namespace lodestone

@@ -2,8 +2,6 @@
 #include "scene/import.h"
 #include "tests/source_folder.h"
 
-#include <algorithm>
-#include <cctype>
 #include <cstdlib>
 #include <filesystem>
 #include <gtest/gtest.h>
@@ -17,21 +15,12 @@ inline std::filesystem::path modelsFolder() {
     return sourceFolder().parent_path() / "shared" / "models";
 }
 
-// Every importable file outside bad/, in order. The folder exists.
+// Every importable file outside bad/, whose files are not meant to load, in order.
 inline std::vector<std::filesystem::path> modelFiles() {
-    std::vector<std::filesystem::path> files;
-    for (const char* folder : {"instanced", "textured", "features", "meshes"})
-        for (const auto& entry :
-             std::filesystem::recursive_directory_iterator(modelsFolder() / folder)) {
-            std::string extension = entry.path().extension().string();
-            std::ranges::transform(extension, extension.begin(), [](unsigned char c) {
-                return static_cast<char>(std::tolower(c));
-            });
-            if (entry.is_regular_file() &&
-                std::ranges::find(importExtensions(), extension) != importExtensions().end())
-                files.push_back(entry.path());
-        }
-    std::ranges::sort(files);
+    std::vector<std::filesystem::path> files = importableFiles(modelsFolder());
+    std::erase_if(files, [](const std::filesystem::path& file) {
+        return *file.lexically_relative(modelsFolder()).begin() == "bad";
+    });
     return files;
 }
 

@@ -229,6 +229,16 @@ TEST(BadInput, FilesOutsideTheFolderAreRefused) {
     }
 }
 
+TEST(ImportableFiles, AreThoseOfKnownTypesInAllFoldersBelowInOrder) {
+    const TempFolder folder;
+    std::filesystem::create_directories(folder.path() / "below" / "trap.glb");
+    const std::filesystem::path upper = folder.write("below/b.GLB", "");
+    const std::filesystem::path object = folder.write("a.obj", "");
+    folder.write("notes.txt", "");
+    EXPECT_EQ(importableFiles(folder.path()), (std::vector{object, upper}));
+    EXPECT_TRUE(importableFiles(folder.path() / "absent").empty());
+}
+
 TEST(BadInput, MissingAndShortBuffersAreNamed) {
     const TempFolder folder;
     GltfMaker maker = triangle();

@@ -41,23 +41,11 @@ constexpr std::array kWays{
     Way{"draco", ".glb", Instancing::Auto, Compression::Draco},
 };
 
-// Relative to the models' folder; the hostile ones are not meant to load.
-std::vector<std::string> modelFiles() {
-    constexpr std::array kExtensions{
-        ".gltf", ".glb", ".dae", ".3ds", ".obj", ".ply", ".stl", ".fbx"};
+// Relative to the models' folder.
+std::vector<std::string> relativeModelFiles() {
     std::vector<std::string> files;
-    std::error_code error;
-    for (const auto& entry : fs::recursive_directory_iterator(modelsFolder(), error)) {
-        std::string extension = entry.path().extension().string();
-        std::ranges::transform(extension, extension.begin(), [](unsigned char c) {
-            return static_cast<char>(std::tolower(c));
-        });
-        const std::string file = entry.path().lexically_relative(modelsFolder()).generic_string();
-        if (!file.starts_with("bad/") &&
-            std::ranges::find(kExtensions, extension) != kExtensions.end())
-            files.push_back(file);
-    }
-    std::ranges::sort(files);
+    for (const fs::path& file : tests::modelFiles())
+        files.push_back(file.lexically_relative(modelsFolder()).generic_string());
     return files;
 }
 
@@ -207,14 +195,14 @@ TEST_P(ModelsExport, ComesBackAsPredictedAndWithEverythingItHad) {
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(ModelsExport);
 INSTANTIATE_TEST_SUITE_P(Models,
                          ModelsExport,
-                         ::testing::ValuesIn(modelFiles()),
+                         ::testing::ValuesIn(relativeModelFiles()),
                          [](const auto& file) { return wordFor(file.param); });
 
 // Without models there is nothing to sweep; with CI=true that is a failure.
 class ModelsExportFolder : public tests::ModelsTest {};
 
 TEST_F(ModelsExportFolder, HasModelsOfEveryFormat) {
-    EXPECT_GT(modelFiles().size(), 60U);
+    EXPECT_GT(tests::modelFiles().size(), 60U);
 }
 
 } // namespace
