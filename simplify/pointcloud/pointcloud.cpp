@@ -131,26 +131,23 @@ Result<PointCloudOptions> optionsFrom(const ParameterValues& values) {
     return options;
 }
 
-template <Algorithm (*Row)(), const CloudMethod& Method>
-Result<LodSourcePtr> prepare(const ScenePtr& scene,
-                             const ParameterValues& values,
-                             const ScheduleOptions& schedule,
-                             const JobContext& job) {
-    const Result<PointCloudOptions> options = optionsFrom<Row, Method>(values);
-    if (!options)
-        return tl::unexpected(options.error());
-    return preparePointCloud(scene, *options, schedule, job);
-}
-
-template <Algorithm (*Row)(), const CloudMethod& Method>
-Result<LodSourcePtr> prepareLike(const LodSource& other,
+// For both ways of preparing: start(scene or another row's source, ...).
+template <Algorithm (*Row)(), const CloudMethod& Method, auto Start, class From>
+Result<LodSourcePtr> prepareFrom(const From& from,
                                  const ParameterValues& values,
                                  const ScheduleOptions& schedule,
                                  const JobContext& job) {
     const Result<PointCloudOptions> options = optionsFrom<Row, Method>(values);
     if (!options)
         return tl::unexpected(options.error());
-    return preparePointCloudLike(other, *options, schedule, job);
+    return Start(from, *options, schedule, job);
+}
+
+template <Algorithm (*Row)(), const CloudMethod& Method>
+Algorithm preparedBy(Algorithm row) {
+    row.prepare = prepareFrom<Row, Method, preparePointCloud, ScenePtr>;
+    row.prepareLike = prepareFrom<Row, Method, preparePointCloudLike, LodSource>;
+    return row;
 }
 
 // What all rows have in common.
@@ -172,9 +169,7 @@ Algorithm vertexTriplexAlgorithm() {
                   "circle.";
     row.parameters = {
         coverageParameter(), literalParameter(kLiteralCircles), retriangulationParameter()};
-    row.prepare = prepare<vertexTriplexAlgorithm, kVertexTriplexMethod>;
-    row.prepareLike = prepareLike<vertexTriplexAlgorithm, kVertexTriplexMethod>;
-    return row;
+    return preparedBy<vertexTriplexAlgorithm, kVertexTriplexMethod>(std::move(row));
 }
 
 Algorithm faceAngleAlgorithm() {
@@ -185,9 +180,7 @@ Algorithm faceAngleAlgorithm() {
                       areaParameter(),
                       literalParameter(kLiteralAngles),
                       retriangulationParameter()};
-    row.prepare = prepare<faceAngleAlgorithm, kFaceAngleMethod>;
-    row.prepareLike = prepareLike<faceAngleAlgorithm, kFaceAngleMethod>;
-    return row;
+    return preparedBy<faceAngleAlgorithm, kFaceAngleMethod>(std::move(row));
 }
 
 Algorithm intervertexDistanceAlgorithm() {
@@ -195,9 +188,7 @@ Algorithm intervertexDistanceAlgorithm() {
     row.summary = "Merges the vertices of a triangle that are near to each other.";
     row.parameters = {
         distanceParameter(), literalParameter(kLiteralCircles), retriangulationParameter()};
-    row.prepare = prepare<intervertexDistanceAlgorithm, kIntervertexDistanceMethod>;
-    row.prepareLike = prepareLike<intervertexDistanceAlgorithm, kIntervertexDistanceMethod>;
-    return row;
+    return preparedBy<intervertexDistanceAlgorithm, kIntervertexDistanceMethod>(std::move(row));
 }
 
 Algorithm sphericalScanningAlgorithm() {
@@ -205,9 +196,7 @@ Algorithm sphericalScanningAlgorithm() {
     row.summary = "Moves a sphere over the vertices; all inside become one.";
     row.parameters = {
         radiusParameter(), literalParameter(kLiteralSpheres), retriangulationParameter()};
-    row.prepare = prepare<sphericalScanningAlgorithm, kSphericalScanningMethod>;
-    row.prepareLike = prepareLike<sphericalScanningAlgorithm, kSphericalScanningMethod>;
-    return row;
+    return preparedBy<sphericalScanningAlgorithm, kSphericalScanningMethod>(std::move(row));
 }
 
 Algorithm vertexTriplexDistanceAlgorithm() {
@@ -216,9 +205,7 @@ Algorithm vertexTriplexDistanceAlgorithm() {
                   "longer one becomes its midpoint.";
     row.parameters = {
         distanceParameter(), literalParameter(kLiteralCircles), retriangulationParameter()};
-    row.prepare = prepare<vertexTriplexDistanceAlgorithm, kVertexTriplexDistanceMethod>;
-    row.prepareLike = prepareLike<vertexTriplexDistanceAlgorithm, kVertexTriplexDistanceMethod>;
-    return row;
+    return preparedBy<vertexTriplexDistanceAlgorithm, kVertexTriplexDistanceMethod>(std::move(row));
 }
 
 Algorithm faceAngleScanningAlgorithm() {
@@ -230,9 +217,7 @@ Algorithm faceAngleScanningAlgorithm() {
                       areaParameter(),
                       literalParameter(kLiteralSpheres),
                       retriangulationParameter()};
-    row.prepare = prepare<faceAngleScanningAlgorithm, kFaceAngleScanningMethod>;
-    row.prepareLike = prepareLike<faceAngleScanningAlgorithm, kFaceAngleScanningMethod>;
-    return row;
+    return preparedBy<faceAngleScanningAlgorithm, kFaceAngleScanningMethod>(std::move(row));
 }
 
 } // namespace lodestone
