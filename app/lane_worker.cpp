@@ -1,5 +1,7 @@
 #include "app/lane_worker.h"
 
+#include "simplify/stoppable_source.h"
+
 #include <algorithm>
 #include <chrono>
 #include <fmt/core.h>
@@ -48,27 +50,6 @@ Result<JobResult> prepareSource(const BuildKey& key,
     prepared.bytes = std::make_shared<const ByteModel>((*source)->scene(), export_options);
     prepared.source = std::move(*source);
     return JobResult(std::move(prepared));
-}
-
-// Any thread. previous: shown of this source, or nullptr.
-ReadOut readOut(const LodSourcePtr& source,
-                const std::optional<Target>& target,
-                const std::optional<std::uint64_t>& position,
-                const ByteModelPtr& bytes,
-                const Lod* previous) {
-    const auto start = std::chrono::steady_clock::now();
-    ReadOut result;
-    if (position)
-        result.resolved.position = std::min(*position, source->positionCount() - 1);
-    else
-        result.resolved = source->resolve(*target, *bytes);
-    const std::uint64_t at = result.resolved.position;
-    result.lod = std::make_shared<const Lod>(source->readOut(at, previous));
-    result.predicted_bytes = bytes->bytes(source->shapeAt(at));
-    result.error_estimate = source->errorAt(at);
-    result.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    return result;
 }
 
 void setShown(const Document& document, Lane& lane, std::shared_ptr<const Lod> lod) {
@@ -375,13 +356,34 @@ bool LaneWorker::Shown::matches(const Shown& other) const {
            other.target && sameTarget(*target, *other.target);
 }
 
+ReadOut LaneWorker::readOut(const Shown& wanted, const Lod* previous, const JobContext& job) {
+    const auto start = std::chrono::steady_clock::now();
+    const LodSource& source = *wanted.source;
+    const auto* stoppable = dynamic_cast<const StoppableSource*>(&source);
+    ReadOut result;
+    if (wanted.position)
+        result.resolved.position = std::min(*wanted.position, source.positionCount() - 1);
+    else
+        result.resolved = stoppable ? stoppable->resolveWithin(*wanted.target, *wanted.bytes, job)
+                                    : source.resolve(*wanted.target, *wanted.bytes);
+    const std::uint64_t at = result.resolved.position;
+    result.lod = std::make_shared<const Lod>(stoppable ? stoppable->readOutWithin(at, job)
+                                                       : source.readOut(at, previous));
+    if (job.stopRequested())
+        return result;
+    result.predicted_bytes = wanted.bytes->bytes(source.shapeAt(at));
+    result.error_estimate = source.errorAt(at);
+    result.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return result;
+}
+
 bool LaneWorker::show(const Document& document, Lane& lane, Work& work, Shown wanted) {
     if (work.shown.matches(wanted))
         return false;
     const Lod* const previous =
         work.shown.source == wanted.source ? lane.status.lod.get() : nullptr;
-    ReadOut read_out =
-        readOut(wanted.source, wanted.target, wanted.position, wanted.bytes, previous);
+    ReadOut read_out = readOut(wanted, previous, {});
     work.reading = std::move(wanted);
     commitReadOut(document, lane, work, std::move(read_out));
     return true;
@@ -397,9 +399,11 @@ bool LaneWorker::showOneShot(Lane& lane, Work& work, Shown wanted) {
     spec.lane = lane.id;
     spec.revision = lane.revision;
     spec.label = fmt::format("Computing {}", laneName(lane.settings));
-    spec.run = [wanted](const JobContext&) -> Result<JobResult> {
-        return JobResult(
-            readOut(wanted.source, wanted.target, wanted.position, wanted.bytes, nullptr));
+    spec.run = [wanted](const JobContext& context) -> Result<JobResult> {
+        ReadOut read_out = readOut(wanted, nullptr, context);
+        if (context.stopRequested())
+            return cancelled();
+        return JobResult(std::move(read_out));
     };
     work.job = jobs_.start(std::move(spec));
     work.reading = std::move(wanted);

@@ -90,6 +90,8 @@ private:
     // The same for sources that take longer than a frame: a job reads out, and the newest wish
     // follows once it is back, so that a drag sees what there is.
     bool showOneShot(Lane& lane, Work& work, Shown wanted);
+    // Any thread. previous: shown of this source, or nullptr. To be dropped where asked to stop.
+    static ReadOut readOut(const Shown& wanted, const Lod* previous, const JobContext& job);
     void commitReadOut(const Document& document, Lane& lane, Work& work, ReadOut read_out);
     const Work* buildingElsewhere(LaneId lane, const BuildKey& key) const;
 

@@ -119,7 +119,7 @@ struct Welder {
 
 // True once every kCheckEvery rounds if the job is to stop: loops over millions look that often.
 bool stopsAt(std::size_t round, const JobContext& job) {
-    constexpr std::size_t kCheckEvery = 65'536;
+    constexpr std::size_t kCheckEvery = 16'384;
     return round % kCheckEvery == 0 && job.stopRequested();
 }
 
@@ -158,6 +158,8 @@ void addPrimitive(Welder& welder, const Geometry& geometry, const JobContext& jo
 // Removes faces that repeat another one of the same primitive: same vertices, same orientation.
 // Faces are compared within the bucket of their smallest vertex.
 void dropDoubles(Complex& complex, std::uint32_t begin, const JobContext& job) {
+    if (job.stopRequested())
+        return;
     const auto corners_of = [&](std::uint32_t f) {
         std::array<std::uint32_t, 3> v;
         for (std::size_t k = 0; k < 3; ++k)
@@ -170,6 +172,8 @@ void dropDoubles(Complex& complex, std::uint32_t begin, const JobContext& job) {
     for (std::uint32_t f = begin; f < end; ++f)
         ++at[corners_of(f)[0] + 1];
     std::partial_sum(at.begin(), at.end(), at.begin());
+    if (job.stopRequested())
+        return;
 
     struct Sides {
         std::uint32_t second = kNone;
@@ -204,10 +208,13 @@ std::uint32_t findRoot(std::vector<std::uint32_t>& parent, std::uint32_t v) {
     return v;
 }
 
-void findComponents(Complex& complex) {
+void findComponents(Complex& complex, const JobContext& job) {
     std::vector<std::uint32_t> parent(complex.positions.size());
     std::iota(parent.begin(), parent.end(), 0u);
-    for (const auto& face : complex.faces) {
+    for (std::size_t f = 0; f < complex.faces.size(); ++f) {
+        if (stopsAt(f, job))
+            return;
+        const auto& face = complex.faces[f];
         std::uint32_t a = findRoot(parent, complex.wedge_vertex[face[0]]);
         for (std::size_t k = 1; k < 3; ++k) {
             const std::uint32_t b = findRoot(parent, complex.wedge_vertex[face[k]]);
@@ -219,6 +226,8 @@ void findComponents(Complex& complex) {
     std::vector<std::uint32_t> component_of_face(complex.faces.size());
     std::vector<std::uint32_t> counts;
     for (std::size_t f = 0; f < complex.faces.size(); ++f) {
+        if (stopsAt(f, job))
+            return;
         const std::uint32_t root = findRoot(parent, complex.wedge_vertex[complex.faces[f][0]]);
         if (component_of_root[root] == kNone) {
             component_of_root[root] = static_cast<std::uint32_t>(counts.size());
@@ -260,8 +269,11 @@ Complex buildComplex(const Submesh& submesh, const JobContext& job) {
         complex.wedge_begin.push_back(static_cast<std::uint32_t>(complex.wedge_source.size()));
         complex.face_begin.push_back(static_cast<std::uint32_t>(complex.faces.size()));
     }
-    if (!job.stopRequested())
-        findComponents(complex);
+    if (job.stopRequested())
+        return complex;
+    findComponents(complex, job);
+    if (job.stopRequested())
+        return complex;
     complex.bulk = findBulk(complex.positions);
     return complex;
 }

@@ -288,6 +288,8 @@ Result<std::vector<CollapseSequence>> buildSequences(std::span<const SequenceReq
             return;
         Build& build = builds[b];
         build.complex = buildComplex(*requests[b].submesh, job);
+        if (job.stopRequested())
+            return;
         if (options.method)
             options.method->arrange(build.complex, requests[b], job);
         if (job.stopRequested())

@@ -68,6 +68,8 @@ CloudSubmesh makeCloudSubmesh(const Submesh& submesh,
     if (job.stopRequested())
         return made;
     made.surface = makeSurface(submesh, made.complex, job);
+    if (job.stopRequested())
+        return made;
     made.edge_length = typicalEdge(made.surface);
     return made;
 }
@@ -85,6 +87,8 @@ CloudDraft draftPiece(const CloudSubmesh& from,
                       const CloudMethod& method,
                       const CloudSettings& settings,
                       const JobContext& job) {
+    if (job.stopRequested())
+        return originalDraft(from);
     auto surface = std::make_shared<CloudSurface>(from.surface);
     method.run(*surface, from.complex, settings, job);
     const auto is_changed = [](std::uint8_t flag) { return flag != 0; };
@@ -111,9 +115,13 @@ CloudPiece finishPiece(const CloudSubmesh& from, const CloudDraft& draft, const 
             piece.primitives.push_back(primitive.geometry);
         return piece;
     }
+    if (job.stopRequested())
+        return piece;
     CloudSurface surface = *draft.surface;
     if (!surface.from_points)
         flipToDelaunay(surface, job);
+    if (job.stopRequested())
+        return piece;
     piece.primitives = readOutSurface(surface, *from.submesh, from.complex);
     return piece;
 }

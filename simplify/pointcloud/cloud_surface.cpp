@@ -11,7 +11,7 @@ namespace {
 
 // Marks the faces whose mirror image (same vertices, other orientation) is in the input, too.
 void markTwoSided(CloudSurface& surface, const JobContext& job) {
-    TriangleTable table(surface.faces.size());
+    TriangleTable table(surface.faces.size(), job);
     for (std::uint32_t f = 0; f < surface.faces.size() && !stopsAt(f, job); ++f) {
         const TriangleKey key = triangleKey(surface.corners(f), 0);
         TriangleTable::Entry& entry = table.at(key);
@@ -66,6 +66,8 @@ findCharts(const Submesh& submesh, const Complex& complex, const JobContext& job
 
 CloudSurface makeSurface(const Submesh& submesh, const Complex& complex, const JobContext& job) {
     CloudSurface surface;
+    if (job.stopRequested())
+        return surface;
     surface.positions.assign(complex.positions.begin(), complex.positions.end());
     surface.wedge_vertex = complex.wedge_vertex;
     surface.stands_for.resize(surface.positions.size());
@@ -97,16 +99,18 @@ glm::dvec3 faceVector(const Triangle3d& points) {
     return glm::cross(points[1] - points[0], points[2] - points[0]);
 }
 
-Stars buildStars(std::span<const Triangle> faces, std::size_t vertex_count) {
+Stars buildStars(std::span<const Triangle> faces, std::size_t vertex_count, const JobContext& job) {
     Stars stars;
     stars.begin.assign(vertex_count + 1, 0);
-    for (const Triangle& face : faces)
-        for (const std::uint32_t vertex : face)
+    for (std::size_t f = 0; f < faces.size() && !stopsAt(f, job); ++f)
+        for (const std::uint32_t vertex : faces[f])
             ++stars.begin[vertex + 1];
+    if (job.stopRequested())
+        return {};
     std::partial_sum(stars.begin.begin(), stars.begin.end(), stars.begin.begin());
     stars.corners.resize(3 * faces.size());
     std::vector<std::uint32_t> at(stars.begin.begin(), stars.begin.end() - 1);
-    for (std::uint32_t corner = 0; corner < stars.corners.size(); ++corner)
+    for (std::uint32_t corner = 0; corner < stars.corners.size() && !stopsAt(corner, job); ++corner)
         stars.corners[at[faces[corner / 3][corner % 3]]++] = corner;
     return stars;
 }

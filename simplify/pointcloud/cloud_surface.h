@@ -70,8 +70,8 @@ struct Stars {
     }
 };
 
-// faces: corners at vertices below vertex_count. O(faces + vertices).
-Stars buildStars(std::span<const Triangle> faces, std::size_t vertex_count);
+// faces: corners at vertices below vertex_count. O(faces + vertices). Empty where asked to stop.
+Stars buildStars(std::span<const Triangle> faces, std::size_t vertex_count, const JobContext& job);
 
 // What a method decided: which vertices become one, and where it lies.
 struct Merges {
@@ -79,9 +79,9 @@ struct Merges {
     std::vector<glm::dvec3> positions; // [vertices] finite; of targets
 };
 
-// True once every few thousand rounds if the job is to stop.
+// True once every thousand rounds if the job is to stop.
 inline bool stopsAt(std::size_t round, const JobContext& job) {
-    constexpr std::size_t kCheckEvery = 8'192;
+    constexpr std::size_t kCheckEvery = 1'024;
     return round % kCheckEvery == 0 && job.stopRequested();
 }
 

@@ -36,6 +36,8 @@ public:
         if (job_.stopRequested())
             return;
         queueAll();
+        if (job_.stopRequested())
+            return;
         std::size_t rounds = 0;
         // Flat Delaunay ends by itself; on a curved surface the limit makes sure of it.
         const std::size_t limit = 16 * queue_.size();

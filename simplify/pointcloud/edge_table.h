@@ -25,9 +25,11 @@ public:
     // Left unfinished where asked to stop.
     EdgeTable(const CloudSurface& surface, const JobContext& job)
         : corner_count_(surface.positions.size(), 0), first_(surface.positions.size(), kNone) {
-        for (std::size_t f = 0; f < surface.faces.size(); ++f)
+        for (std::size_t f = 0; f < surface.faces.size() && !stopsAt(f, job); ++f)
             for (const std::uint32_t vertex : surface.corners(f))
                 ++corner_count_[vertex];
+        if (job.stopRequested())
+            return;
         edges_.reserve(3 * surface.faces.size() / 2 + 16);
         sides_.resize(surface.faces.size());
         for (std::uint32_t f = 0; f < surface.faces.size() && !stopsAt(f, job); ++f) {

@@ -91,12 +91,16 @@ bool unrolls(std::span<const glm::dvec2> rim) {
 
 class FaceAnglePass {
 public:
+    // Not to be used where asked to stop.
     FaceAnglePass(CloudSurface& surface, const FaceAngleOptions& options, const JobContext& job)
         : surface_(surface), options_(options), corners_(cornersOf(surface)),
-          stars_(buildStars(corners_, surface.positions.size())),
-          cosine_(cosineDeg(options.angle_deg)), normals_(surface.faces.size()),
-          areas_(surface.faces.size()), kept_(surface.positions.size(), false),
+          stars_(buildStars(corners_, surface.positions.size(), job)),
+          cosine_(cosineDeg(options.angle_deg)), kept_(surface.positions.size(), false),
           gone_(surface.faces.size(), false), new_edges_(surface.positions.size()) {
+        if (job.stopRequested())
+            return;
+        normals_.resize(surface.faces.size());
+        areas_.resize(surface.faces.size());
         double area = 0.0;
         for (std::size_t f = 0; f < surface.faces.size() && !stopsAt(f, job); ++f) {
             normals_[f] = faceVector(surface.points(f));

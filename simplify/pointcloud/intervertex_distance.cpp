@@ -74,6 +74,8 @@ Merges walk(const CloudSurface& surface,
     constexpr double kRounding = 1e-6; // of floats
     MergeBuilder builder(surface, fidelity, job);
     const std::vector<float> shortest = shortestSides(surface, job);
+    if (job.stopRequested())
+        return {};
     std::vector<std::uint32_t> open(surface.faces.size()); // faces that have not collapsed
     std::iota(open.begin(), open.end(), 0u);
     for (const double threshold : thresholds(surface, distance, fidelity)) {

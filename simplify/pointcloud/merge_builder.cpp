@@ -7,10 +7,13 @@
 namespace lodestone {
 
 MergeBuilder::MergeBuilder(const CloudSurface& surface, Fidelity fidelity, const JobContext& job)
-    : fidelity_(fidelity), corners_(surface.faces.size()), merged_(surface.positions.size(), 0) {
+    : fidelity_(fidelity), merged_(surface.positions.size(), 0) {
     merges_.target.resize(surface.positions.size());
     std::iota(merges_.target.begin(), merges_.target.end(), 0u);
     merges_.positions = surface.positions;
+    if (job.stopRequested())
+        return;
+    corners_.resize(surface.faces.size());
     for (std::size_t f = 0; f < corners_.size() && !stopsAt(f, job); ++f)
         corners_[f] = surface.corners(f);
     if (fidelity == Fidelity::Sound)
@@ -18,6 +21,8 @@ MergeBuilder::MergeBuilder(const CloudSurface& surface, Fidelity fidelity, const
 }
 
 void MergeBuilder::linkFaces(const JobContext& job) {
+    if (job.stopRequested())
+        return;
     const std::size_t vertices = merges_.target.size();
     first_.assign(vertices, kNone);
     last_.assign(vertices, kNone);

@@ -2,7 +2,8 @@
 // The six methods as pure functions: one pass over a surface to what merges, or to what is removed.
 // Distances are in the surface's units, angles in degrees. All are sequential, deterministic and
 // near-linear in the faces. They stop early where asked to: the caller looks at the job and drops
-// what it got. Source: the six point-cloud methods (VT, FAD, IVDD, SS, VTD, FASS).
+// what it got, which may be empty. Source: the six point-cloud methods (VT, FAD, IVDD, SS, VTD,
+// FASS).
 #include "simplify/pointcloud/cloud_surface.h"
 
 namespace lodestone {

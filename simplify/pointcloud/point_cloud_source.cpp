@@ -3,6 +3,7 @@
 #include "simplify/pointcloud/cloud_cache.h"
 #include "simplify/pointcloud/cloud_ladder.h"
 #include "simplify/pointcloud/rung_search.h"
+#include "simplify/stoppable_source.h"
 
 #include <algorithm>
 #include <chrono>
@@ -24,7 +25,7 @@ struct PointCloudInput {
     ScheduleOptions schedule;
 };
 
-class PointCloudSource final : public LodSource {
+class PointCloudSource final : public LodSource, public StoppableSource {
 public:
     explicit PointCloudSource(PointCloudInput input)
         : cloud_(std::move(input.cloud)), options_(input.options),
@@ -40,17 +41,29 @@ public:
     std::uint64_t positionCount() const override { return lastPosition() + 1; }
 
     std::uint64_t trianglesAt(std::uint64_t position) const override {
-        return countsAt(position)->triangles;
+        return countsAt(position, {})->triangles;
     }
 
     double errorAt(std::uint64_t position) const override {
-        return countsAt(position)->error_percent;
+        return countsAt(position, {})->error_percent;
     }
 
-    LodShape shapeAt(std::uint64_t position) const override { return countsAt(position)->shape; }
+    LodShape shapeAt(std::uint64_t position) const override {
+        return countsAt(position, {})->shape;
+    }
 
-    Resolved resolve(const Target& target, const ByteModel& bytes) const override;
-    Lod readOut(std::uint64_t position, const Lod*) const override;
+    Resolved resolve(const Target& target, const ByteModel& bytes) const override {
+        return resolveWithin(target, bytes, {});
+    }
+
+    Lod readOut(std::uint64_t position, const Lod* /*previous*/) const override {
+        return readOutWithin(position, {});
+    }
+
+    Resolved resolveWithin(const Target& target,
+                           const ByteModel& bytes,
+                           const JobContext& job) const override;
+    Lod readOutWithin(std::uint64_t position, const JobContext& job) const override;
     LodSourcePtr rescheduled(const ScheduleOptions& options, const ByteModel&) const override;
 
     std::vector<std::string> notes() const override { return {}; }
@@ -65,9 +78,10 @@ private:
     CloudDraft coarsestAllowed(std::size_t s, const JobContext& job) const;
     CloudCountsPtr countsOf(const CloudDrafts& drafts) const;
     CloudDraftsPtr draftsAt(std::uint64_t position, const JobContext& job) const;
-    CloudCountsPtr countsAt(std::uint64_t position) const;
+    CloudCountsPtr countsAt(std::uint64_t position, const JobContext& job) const;
     RungBracket search(const std::function<double(std::uint64_t)>& excess, double tolerance) const;
-    std::uint64_t positionFor(const Target& target, const ByteModel& bytes) const;
+    std::uint64_t
+    positionFor(const Target& target, const ByteModel& bytes, const JobContext& job) const;
     std::string whyMissed() const;
 
     CloudScenePtr cloud_;
@@ -160,24 +174,28 @@ CloudDraftsPtr PointCloudSource::draftsAt(std::uint64_t position, const JobConte
     return drafts;
 }
 
-CloudCountsPtr PointCloudSource::countsAt(std::uint64_t position) const {
+// Of the input where asked to stop.
+CloudCountsPtr PointCloudSource::countsAt(std::uint64_t position, const JobContext& job) const {
     position = std::min(position, lastPosition());
     if (CloudCountsPtr known = cache_.counts(position))
         return known;
-    return countsOf(*draftsAt(position, {}));
+    const CloudDraftsPtr drafts = draftsAt(position, job);
+    return drafts ? countsOf(*drafts) : countsAt(0, {});
 }
 
-Lod PointCloudSource::readOut(std::uint64_t position, const Lod*) const {
+Lod PointCloudSource::readOutWithin(std::uint64_t position, const JobContext& job) const {
     position = std::min(position, lastPosition());
     if (const LodPtr known = cache_.lod(position))
         return *known;
-    const CloudDraftsPtr drafts = draftsAt(position, {});
+    const CloudDraftsPtr drafts = draftsAt(position, job);
+    if (!drafts)
+        return {};
     auto lod = std::make_shared<Lod>();
     lod->position = position;
     lod->submeshes.resize(drafts->submeshes.size());
     tbb::parallel_for(std::size_t{0}, drafts->submeshes.size(), [&](std::size_t s) {
         LodSubmesh& to = lod->submeshes[s];
-        to.primitives = finishPiece(cloud_->submeshes[s], drafts->submeshes[s], {}).primitives;
+        to.primitives = finishPiece(cloud_->submeshes[s], drafts->submeshes[s], job).primitives;
         to.kept_instances = cloud_->submeshes[s].instances;
     });
     for (std::size_t s = 0; s < drafts->submeshes.size(); ++s) {
@@ -186,7 +204,8 @@ Lod PointCloudSource::readOut(std::uint64_t position, const Lod*) const {
         lod->triangles += drafts->submeshes[s].triangles * instances;
         lod->unique_triangles += instances > 0 ? drafts->submeshes[s].triangles : 0;
     }
-    cache_.insert(lod);
+    if (!job.stopRequested())
+        cache_.insert(lod);
     return *lod;
 }
 
@@ -215,10 +234,12 @@ RungBracket PointCloudSource::search(const std::function<double(std::uint64_t)>&
 
 // lastPosition() + 1: none meets the target. Triangles fall about as powers of the distances do,
 // and so do bytes: they are straight in the rung as logarithms.
-std::uint64_t PointCloudSource::positionFor(const Target& target, const ByteModel& bytes) const {
+std::uint64_t PointCloudSource::positionFor(const Target& target,
+                                            const ByteModel& bytes,
+                                            const JobContext& job) const {
     constexpr double kNearEnough = 0.005; // relative
     constexpr double kLeast = 1e-300;     // a target of nothing has a logarithm, too
-    const auto full = static_cast<double>(countsAt(0)->triangles);
+    const auto full = static_cast<double>(countsAt(0, job)->triangles);
     switch (target.kind) {
     case Target::Kind::Ratio:
     case Target::Kind::Triangles: {
@@ -226,13 +247,13 @@ std::uint64_t PointCloudSource::positionFor(const Target& target, const ByteMode
             target.kind == Target::Kind::Ratio ? target.value * full : target.value;
         const double limit = std::max(kLeast, wanted + std::min(1e-9 * full, 0.5));
         const auto excess = [&](std::uint64_t position) {
-            return std::log(static_cast<double>(countsAt(position)->triangles) / limit);
+            return std::log(static_cast<double>(countsAt(position, job)->triangles) / limit);
         };
         return search(excess, kNearEnough).coarse;
     }
     case Target::Kind::Bytes: {
         const auto excess = [&](std::uint64_t position) {
-            const auto size = static_cast<double>(bytes.bytes(countsAt(position)->shape));
+            const auto size = static_cast<double>(bytes.bytes(countsAt(position, job)->shape));
             return std::log(size / std::max(kLeast, target.value));
         };
         return search(excess, kNearEnough).coarse;
@@ -242,7 +263,7 @@ std::uint64_t PointCloudSource::positionFor(const Target& target, const ByteMode
     }
     const double above = std::nextafter(target.value, HUGE_VAL);
     const auto excess = [&](std::uint64_t position) {
-        return std::log(above / countsAt(position)->error_percent);
+        return std::log(above / countsAt(position, job)->error_percent);
     };
     return search(excess, 0.0).fine; // the coarsest whose error is within the target
 }
@@ -256,8 +277,12 @@ std::string PointCloudSource::whyMissed() const {
            " triangles are the fewest that this method leaves (at least 4 a submesh)";
 }
 
-Resolved PointCloudSource::resolve(const Target& target, const ByteModel& bytes) const {
-    std::uint64_t position = positionFor(target, bytes);
+Resolved PointCloudSource::resolveWithin(const Target& target,
+                                         const ByteModel& bytes,
+                                         const JobContext& job) const {
+    std::uint64_t position = positionFor(target, bytes, job);
+    if (job.stopRequested())
+        return {};
     bool met = position <= lastPosition();
     position = std::min(position, lastPosition());
     if (isGiven()) { // that value, whatever the target

@@ -40,6 +40,8 @@ std::vector<std::uint32_t> groupWedges(const CloudSurface& surface,
     }
     if (!any)
         return parent;
+    if (job.stopRequested())
+        return parent;
     std::vector<std::uint32_t> nearest(parent.size(), kNone); // [roots]
     std::vector<double> distance2(parent.size(), std::numeric_limits<double>::max());
     for (std::uint32_t w = 0; w < parent.size() && !stopsAt(w, job); ++w) {
@@ -54,7 +56,7 @@ std::vector<std::uint32_t> groupWedges(const CloudSurface& surface,
         }
     }
     std::vector<std::uint32_t> stands_for(parent.size());
-    for (std::uint32_t w = 0; w < parent.size(); ++w) {
+    for (std::uint32_t w = 0; w < parent.size() && !stopsAt(w, job); ++w) {
         const std::uint32_t chosen = nearest[findRoot(parent, w)];
         stands_for[w] = chosen == kNone ? w : chosen;
     }
@@ -62,9 +64,11 @@ std::vector<std::uint32_t> groupWedges(const CloudSurface& surface,
 }
 
 // Gives each face its new corners; drops those that have collapsed and notes which have changed.
+// Left halfway where asked to stop.
 void remapFaces(CloudSurface& surface,
                 const Merges& merges,
-                std::span<const std::uint32_t> wedge_for) {
+                std::span<const std::uint32_t> wedge_for,
+                const JobContext& job) {
     std::vector<bool> moved(merges.target.size());
     for (std::uint32_t v = 0; v < merges.target.size(); ++v)
         if (merges.target[v] != v || merges.positions[v] != surface.positions[v]) {
@@ -72,7 +76,7 @@ void remapFaces(CloudSurface& surface,
             moved[merges.target[v]] = true;
         }
     std::size_t kept = 0;
-    for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+    for (std::size_t f = 0; f < surface.faces.size() && !stopsAt(f, job); ++f) {
         const Triangle old = surface.corners(f);
         const std::uint32_t a = merges.target[old[0]];
         const std::uint32_t b = merges.target[old[1]];
@@ -95,7 +99,7 @@ void remapFaces(CloudSurface& surface,
 void dropDoubles(CloudSurface& surface, const JobContext& job) {
     const auto changed = static_cast<std::size_t>(
         std::ranges::count_if(surface.changed, [](std::uint8_t flag) { return flag != 0; }));
-    TriangleTable table(changed);
+    TriangleTable table(changed, job);
     for (std::uint32_t f = 0; f < surface.faces.size() && !stopsAt(f, job); ++f) {
         if (!surface.changed[f])
             continue;
@@ -129,10 +133,12 @@ void applyMerges(CloudSurface& surface,
                  const Merges& merges,
                  const Complex& complex,
                  const JobContext& job) {
+    if (job.stopRequested())
+        return; // the merges may not be whole either
     const std::vector<std::uint32_t> wedge_for = groupWedges(surface, merges, complex, job);
     if (job.stopRequested())
         return;
-    remapFaces(surface, merges, wedge_for);
+    remapFaces(surface, merges, wedge_for, job);
     for (std::uint32_t& vertex : surface.wedge_vertex)
         if (vertex != kNone)
             vertex = merges.target[vertex];

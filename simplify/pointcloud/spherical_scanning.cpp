@@ -99,7 +99,11 @@ Merges sphericalScanning(const CloudSurface& surface,
                          Fidelity fidelity,
                          const JobContext& job) {
     MergeBuilder builder(surface, fidelity, job);
+    if (job.stopRequested())
+        return {};
     const std::vector<glm::dmat3> quadrics = vertexQuadrics(surface, job);
+    if (job.stopRequested())
+        return {};
     std::vector<bool> taken(surface.positions.size(), true); // also those without a face
     for (const std::uint32_t vertex : surface.wedge_vertex)
         if (vertex != kNone)

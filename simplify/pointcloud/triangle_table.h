@@ -42,8 +42,14 @@ public:
         bool backward_pinned = false;
     };
 
-    explicit TriangleTable(std::size_t faces)
-        : slots_(std::bit_ceil(std::max<std::size_t>(16, 2 * faces))) {}
+    // Not to be used where asked to stop.
+    TriangleTable(std::size_t faces, const JobContext& job) {
+        constexpr std::size_t kAtOnce = 32'768;
+        const std::size_t slots = std::bit_ceil(std::max<std::size_t>(16, 2 * faces));
+        slots_.reserve(slots);
+        while (slots_.size() < slots && !job.stopRequested())
+            slots_.resize(std::min(slots, slots_.size() + kAtOnce));
+    }
 
     // The entry of a key, made where there is none.
     Entry& at(const TriangleKey& key) {
