@@ -64,17 +64,19 @@ std::vector<std::uint32_t> groupWedges(const CloudSurface& surface,
 }
 
 // Gives each face its new corners; drops those that have collapsed and notes which have changed.
-// Left halfway where asked to stop.
-void remapFaces(CloudSurface& surface,
-                const Merges& merges,
-                std::span<const std::uint32_t> wedge_for,
-                const JobContext& job) {
+// Result [faces that are left]: it still faces the side that it faced. Left halfway where asked to
+// stop.
+std::vector<std::uint8_t> remapFaces(CloudSurface& surface,
+                                     const Merges& merges,
+                                     std::span<const std::uint32_t> wedge_for,
+                                     const JobContext& job) {
     std::vector<bool> moved(merges.target.size());
     for (std::uint32_t v = 0; v < merges.target.size(); ++v)
         if (merges.target[v] != v || merges.positions[v] != surface.positions[v]) {
             moved[v] = true;
             moved[merges.target[v]] = true;
         }
+    std::vector<std::uint8_t> upright(surface.faces.size(), 1);
     std::size_t kept = 0;
     for (std::size_t f = 0; f < surface.faces.size() && !stopsAt(f, job); ++f) {
         const Triangle old = surface.corners(f);
@@ -88,15 +90,28 @@ void remapFaces(CloudSurface& surface,
         surface.primitive[kept] = surface.primitive[f];
         surface.two_sided[kept] = surface.two_sided[f];
         surface.changed[kept] = surface.changed[f] || moved[a] || moved[b] || moved[c];
+        if (surface.changed[kept]) {
+            const glm::dvec3 before = faceVector(
+                {surface.positions[old[0]], surface.positions[old[1]], surface.positions[old[2]]});
+            const glm::dvec3 after =
+                faceVector({merges.positions[a], merges.positions[b], merges.positions[c]});
+            upright[kept] = glm::dot(before, after) > 0.0;
+        }
         ++kept;
     }
     surface.faces.resize(kept);
     surface.primitive.resize(kept);
     surface.two_sided.resize(kept);
     surface.changed.resize(kept);
+    upright.resize(kept);
+    return upright;
 }
 
-void dropDoubles(CloudSurface& surface, const JobContext& job) {
+// Where both faces of an opposite pair face as they did, the two sides of something thin have met:
+// without them it would be gone. Else one of them is folded over onto the other, and they cancel.
+void dropDoubles(CloudSurface& surface,
+                 std::span<const std::uint8_t> upright,
+                 const JobContext& job) {
     const auto changed = static_cast<std::size_t>(
         std::ranges::count_if(surface.changed, [](std::uint8_t flag) { return flag != 0; }));
     TriangleTable table(changed, job);
@@ -111,6 +126,8 @@ void dropDoubles(CloudSurface& surface, const JobContext& job) {
             (key.turned ? entry.backward_pinned : entry.forward_pinned) = true;
         else
             ++(key.turned ? entry.backward_count : entry.forward_count);
+        if (upright[f])
+            (key.turned ? entry.backward_upright : entry.forward_upright) = true;
     }
     std::vector<bool> keep(surface.faces.size(), true);
     for (std::uint32_t f = 0; f < surface.faces.size() && !stopsAt(f, job); ++f) {
@@ -121,7 +138,8 @@ void dropDoubles(CloudSurface& surface, const JobContext& job) {
         const std::uint32_t own = key.turned ? entry.backward_count : entry.forward_count;
         const std::uint32_t others = key.turned ? entry.forward_count : entry.backward_count;
         const bool pinned = key.turned ? entry.backward_pinned : entry.forward_pinned;
-        const bool survives = own > others || pinned;
+        const bool is_sheet = entry.forward_upright && entry.backward_upright;
+        const bool survives = own > others || pinned || is_sheet;
         keep[f] = survives && f == (key.turned ? entry.backward : entry.forward);
     }
     keepFaces(surface, [&](std::size_t f) { return keep[f]; });
@@ -138,7 +156,7 @@ void applyMerges(CloudSurface& surface,
     const std::vector<std::uint32_t> wedge_for = groupWedges(surface, merges, complex, job);
     if (job.stopRequested())
         return;
-    remapFaces(surface, merges, wedge_for, job);
+    const std::vector<std::uint8_t> upright = remapFaces(surface, merges, wedge_for, job);
     for (std::uint32_t& vertex : surface.wedge_vertex)
         if (vertex != kNone)
             vertex = merges.target[vertex];
@@ -148,7 +166,7 @@ void applyMerges(CloudSurface& surface,
     surface.positions = merges.positions;
     if (job.stopRequested())
         return;
-    dropDoubles(surface, job);
+    dropDoubles(surface, upright, job);
     forgetUnusedWedges(surface);
 }
 

@@ -40,6 +40,8 @@ public:
         std::uint32_t backward_count = 0;
         bool forward_pinned = false; // one of them stays whatever cancels
         bool backward_pinned = false;
+        bool forward_upright = false; // one of them has not been turned over
+        bool backward_upright = false;
     };
 
     // Not to be used where asked to stop.

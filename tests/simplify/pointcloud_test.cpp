@@ -206,6 +206,23 @@ TEST(PointCloud, CardsKeepBothTheirFaces) {
     }
 }
 
+TEST(PointCloud, BothSidesOfSomethingThinStay) {
+    auto lens = std::make_shared<Geometry>(*meshes::sphere(40, 60, 0.0));
+    for (glm::vec3& position : lens->positions)
+        position.z *= 0.02f;
+    const Submesh submesh = meshes::submeshOf({lens});
+    const CloudSubmesh cloud = cloudOf(submesh);
+    const double area = meshes::shapeOf(std::vector<GeometryPtr>{lens}).area;
+    for (const CloudMethod* method : {&kSphericalScanningMethod, &kFaceAngleScanningMethod}) {
+        const CloudPiece piece = pieceOf(cloud, *method, 0.25);
+        const meshes::Shape shape = meshes::shapeOf(piece.primitives);
+        EXPECT_LT(piece.triangles, 300u);
+        EXPECT_GT(shape.area, 0.85 * area);
+        EXPECT_EQ(shape.border_edges, 0u);
+        EXPECT_FALSE(hasDoubles(piece.primitives));
+    }
+}
+
 TEST(PointCloud, FlatVerticesGoAndTheOutlineStays) {
     const Submesh submesh = meshes::submeshOf({meshes::grid(16)});
     const CloudSubmesh cloud = cloudOf(submesh);
