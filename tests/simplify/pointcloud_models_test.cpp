@@ -97,6 +97,14 @@ bool sameGeometry(const CloudPiece& a, const CloudPiece& b) {
     });
 }
 
+void expectIdentityAtZero(const CloudSubmesh& cloud) {
+    for (const CloudMethod* method : kMethods) {
+        const CloudPiece piece = simplifyPiece(cloud, *method, {}, {});
+        EXPECT_FALSE(piece.changed) << method->main_id;
+        EXPECT_EQ(piece.triangles, cloud.triangles) << method->main_id;
+    }
+}
+
 void checkSubmesh(const CloudSubmesh& cloud) {
     const Bounds bounds = localBounds(*cloud.submesh);
     const Edges input = countEdges(finishPiece(cloud, originalDraft(cloud), {}));
@@ -104,7 +112,7 @@ void checkSubmesh(const CloudSubmesh& cloud) {
     for (const CloudMethod* method : kMethods) {
         const bool distance = method->main == MainParameter::DistancePct;
         double previous = cloud.triangles;
-        for (const double share : {0.02, 0.1}) {
+        for (const double share : {0.02, 0.1, 0.3}) {
             SCOPED_TRACE(std::string(method->main_id) + " " + std::to_string(share));
             CloudSettings settings;
             settings.main = distance ? share * bounds.diagonal() : share * method->maximum;
@@ -141,6 +149,7 @@ TEST_F(PointCloudModels, EverySubmeshOfEveryModelComesOutSound) {
             if (cloud.surface.faces.empty() || cloud.triangles > kLargest)
                 continue;
             SCOPED_TRACE(file.filename().string() + " submesh " + std::to_string(s));
+            expectIdentityAtZero(cloud);
             checkSubmesh(cloud);
             ++submeshes;
         }
