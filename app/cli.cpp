@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <fmt/core.h>
 #include <ostream>
 #include <tbb/global_control.h>
@@ -29,6 +30,17 @@ std::string oneLine(std::string text) {
 
 int usageError(const std::string& message, const CliEnvironment& environment) {
     return finishCommand(fail(ErrorKind::Usage, message + "; see --help"), environment);
+}
+
+// A mistyped command comes as the file to open.
+bool isMistyped(const std::string& file) {
+    std::error_code error;
+    const std::filesystem::path path(file);
+    return !file.empty() && !path.has_extension() && !std::filesystem::exists(path, error);
+}
+
+std::string mistyped(const std::string& file) {
+    return fmt::format("'{}' is neither a command nor a file", file);
 }
 
 void addTopLevel(CLI::App& app, TopLevel& top, ChosenCommand& chosen) {
@@ -95,6 +107,8 @@ runTopLevel(const TopLevel& top, const ChosenCommand& chosen, const CliEnvironme
         return {finishCommand(tl::unexpected<Error>(threads.error()), environment), {}};
     if (chosen.run)
         return {finishCommand(runGuarded(chosen.run, environment), environment), {}};
+    if (isMistyped(top.file))
+        return {usageError(mistyped(top.file), environment), {}};
     CliOutcome outcome;
     outcome.window.emplace();
     if (!top.file.empty())
@@ -129,7 +143,8 @@ CliOutcome runCommandLine(int argc, const char* const* argv, const CliEnvironmen
         environment.out << helpText(app) << std::flush;
         return {};
     } catch (const CLI::ParseError& error) {
-        return {usageError(oneLine(error.what()), environment), {}};
+        const std::string what = isMistyped(top.file) ? mistyped(top.file) : oneLine(error.what());
+        return {usageError(what, environment), {}};
     }
     return runTopLevel(top, chosen, environment);
 }

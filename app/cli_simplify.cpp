@@ -97,6 +97,10 @@ Result<void> runSimplify(const SimplifyOptions& options, const CliEnvironment& e
     Result<RunRequest> request = parseRequest(options);
     if (!request)
         return tl::unexpected<Error>(std::move(request.error()));
+    std::error_code absent;
+    if (std::filesystem::equivalent(options.input, options.output, absent))
+        return fail(ErrorKind::Usage,
+                    fmt::format("{}: is the input, too; write to another file", options.output));
     ProgressBar bar(environment);
     bar.stage("read");
     Result<LoadedInput> input = loadInput(options.input, bar.context());

@@ -53,10 +53,15 @@ std::vector<std::filesystem::path> importableFiles(const std::filesystem::path& 
 
 Result<ScenePtr> importScene(const std::filesystem::path& path, const JobContext& job) {
     const std::string extension = lowerExtension(path);
+    std::error_code error;
+    if (std::filesystem::is_directory(path, error))
+        return badInput(path.string() + ": is a folder: choose a file in it");
+    if (extension.empty())
+        return badInput(path.filename().string() + ": has no extension: name it after its type, " +
+                        listExtensions());
     if (!isImportable(extension))
         return badInput(path.filename().string() + ": unknown file type '" + extension +
                         "': use one of " + listExtensions());
-    std::error_code error;
     if (!std::filesystem::is_regular_file(path, error))
         return badInput(path.filename().string() + ": no such file: check the path");
     if (extension == ".gltf" || extension == ".glb")

@@ -138,6 +138,7 @@ TEST_F(CliTest, WrongUsageIsOneLineAndExitCode2) {
     const std::string in = chair();
     const std::string out = path("never.glb");
     const std::vector<std::vector<std::string>> wrong = {
+        {"frobnicate"},
         {"frobnicate", "a", "b"},
         {"--json"},
         {"info"},
@@ -166,6 +167,7 @@ TEST_F(CliTest, WrongUsageIsOneLineAndExitCode2) {
         {"simplify", in, "-o", out, "--algorithm", "ias", "--ratio", "0.5", "--instancing", "x"},
         {"simplify", in, "-o", out, "--algorithm", "ias", "--ratio", "0.5", "--compress", "zip"},
         {"simplify", in, "-o", path("out.obj"), "--algorithm", "ias", "--ratio", "0.5"},
+        {"simplify", in, "-o", in, "--algorithm", "ias", "--ratio", "0.5"},
         {"compare", in},
         {"compare", in, "--algorithms", "ias,nope", "--ratio", "0.5"},
         {"compare", in, "--algorithms", "", "--ratio", "0.5"},

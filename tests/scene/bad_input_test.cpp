@@ -202,6 +202,9 @@ TEST(BadInput, WhatIsNotGltfIsToldSo) {
     expectBadInput(importBytes("a.gltf", "{}"), "not a glTF 2.0 file");
     expectBadInput(importBytes("a.gltf", R"({"asset": {"version": "1.0"}})"), "glTF 1.0");
     expectBadInput(importBytes("a.xyz", "{}"), "unknown file type '.xyz'");
+    const TempFolder folder;
+    expectBadInput(importScene(folder.path(), {}), "is a folder");
+    expectBadInput(importScene(folder.write("plain", "{}"), {}), "has no extension");
     expectBadInput(importScene("/nowhere/a.glb", {}), "no such file");
     expectBadInput(importBytes("a.gltf", std::string(100'000, '[')), "neither JSON nor GLB");
     expectBadInput(importBytes("a.gltf", "{\"extras\":" + std::string(100'000, '[')),
