@@ -1,5 +1,7 @@
 #include "simplify/collapse/instance_weights.h"
 
+#include "simplify/stretch.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -48,20 +50,6 @@ std::array<std::int64_t, 7> keyOf(const glm::dmat3& gram) {
             rounded(gram[0][1]),
             rounded(gram[0][2]),
             rounded(gram[1][2])};
-}
-
-// Largest singular value of M from G = M^T M, by power iteration with a safe start.
-double stretchOf(const glm::dmat3& gram) {
-    glm::dvec3 v(1.0, 0.7, 0.4);
-    double length = 0.0;
-    for (int i = 0; i < 32; ++i) {
-        v = gram * v;
-        length = glm::length(v);
-        if (length <= 0.0)
-            return 0.0;
-        v /= length;
-    }
-    return std::sqrt(length);
 }
 
 // Cell coordinates of a direction and its opposite: they weigh the same, so three cube faces do.
@@ -139,7 +127,7 @@ InstanceWeights::InstanceWeights(std::span<const glm::dmat3> linear_parts) {
             max_stretch_ = std::max(max_stretch_, std::sqrt(s2));
             continue;
         }
-        max_stretch_ = std::max(max_stretch_, stretchOf(gram));
+        max_stretch_ = std::max(max_stretch_, longestStretchOfGram(gram));
         const auto [group, added] = distinct.try_emplace(keyOf(gram));
         if (added)
             group->second = {gram,

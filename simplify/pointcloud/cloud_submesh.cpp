@@ -3,6 +3,7 @@
 #include "simplify/pointcloud/advancing_front.h"
 #include "simplify/pointcloud/cloud_read_out.h"
 #include "simplify/pointcloud/retriangulate.h"
+#include "simplify/stretch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,22 +11,6 @@
 namespace lodestone {
 
 namespace {
-
-// The largest factor by which a linear map stretches a length: the root of the largest eigenvalue
-// of its Gram matrix, by power iteration.
-double stretchOf(const glm::dmat3& linear) {
-    const glm::dmat3 gram = glm::transpose(linear) * linear;
-    glm::dvec3 v(1.0, 0.7, 0.4);
-    double length = 0.0;
-    for (int i = 0; i < 32; ++i) {
-        v = gram * v;
-        length = glm::length(v);
-        if (!(length > 0.0))
-            return 0.0;
-        v /= length;
-    }
-    return std::sqrt(length);
-}
 
 double farthestMove(const CloudSurface& surface, const Complex& complex) {
     double farthest2 = 0.0;
@@ -60,7 +45,7 @@ CloudSubmesh makeCloudSubmesh(const Submesh& submesh,
     for (std::size_t i = 0; i < instances.size(); ++i) {
         if (stopsAt(i, job))
             return made;
-        made.stretch = std::max(made.stretch, stretchOf(glm::dmat3(instances[i].transform)));
+        made.stretch = std::max(made.stretch, longestStretch(glm::dmat3(instances[i].transform)));
     }
     if (made.stretch <= 0.0)
         return made;
