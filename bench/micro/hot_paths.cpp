@@ -117,6 +117,30 @@ void addReadOuts(const Maple& maple) {
         [maple] { return maple.source->readOut(maple.positions[0], nullptr).triangles > 0; });
 }
 
+// What a lane does while a parameter of a one-shot method is dragged.
+Result<void> addReRuns() {
+    struct Dragged {
+        const char* id;
+        const char* parameter;
+        double value;
+    };
+
+    const ScenePtr sphere = displacedSphere(50);
+    for (const Dragged& dragged : {Dragged{"ss", "radius", 1.5}, Dragged{"fad", "angle", 20.0}}) {
+        const Algorithm* row = findAlgorithm(dragged.id);
+        const Result<LodSourcePtr> welded = row->prepare(sphere, {}, {}, {});
+        if (!welded)
+            return tl::unexpected(welded.error());
+        add("re-run: sphere of 30,000 triangles, " + std::string(row->short_name),
+            [row, dragged, welded = *welded] {
+                const Result<LodSourcePtr> again =
+                    row->prepareLike(*welded, {{dragged.parameter, dragged.value}}, {}, {});
+                return again && (*again)->readOut(1, nullptr).triangles > 0;
+            });
+    }
+    return {};
+}
+
 void addSizes(const Maple& maple) {
     add("size prediction: maple at one position",
         [maple] { return maple.bytes->bytes(maple.source->shapeAt(maple.positions[0])) > 0; });
@@ -192,6 +216,8 @@ Result<std::string> registerHotPaths() {
     addSequences(*maple);
     addSchedules(*maple);
     addReadOuts(*maple);
+    if (const Result<void> added = addReRuns(); !added)
+        return tl::unexpected(added.error());
     addSizes(*maple);
     addFiles(*maple);
     addMeasures(*maple);
