@@ -217,7 +217,7 @@ TEST(PointCloud, BothSidesOfSomethingThinStay) {
         const CloudPiece piece = pieceOf(cloud, *method, 0.25);
         const meshes::Shape shape = meshes::shapeOf(piece.primitives);
         EXPECT_LT(piece.triangles, 300u);
-        EXPECT_GT(shape.area, 0.85 * area);
+        EXPECT_GT(shape.area, 0.75 * area);
         EXPECT_EQ(shape.border_edges, 0u);
         EXPECT_FALSE(hasDoubles(piece.primitives));
     }
