@@ -4,6 +4,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <algorithm>
 #include <exception>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -97,6 +98,76 @@ bool findWedges(const Cloud& cloud,
     return false;
 }
 
+using DirectedEdges = std::vector<std::array<std::size_t, 2>>; // sorted
+
+template <class Corners>
+DirectedEdges directedEdges(std::size_t face_count, const Corners& corners) {
+    DirectedEdges edges;
+    edges.reserve(3 * face_count);
+    for (std::size_t f = 0; f < face_count; ++f) {
+        const auto face = corners(f);
+        for (std::size_t k = 0; k < 3; ++k)
+            edges.push_back({face[k], face[(k + 1) % 3]});
+    }
+    std::ranges::sort(edges);
+    return edges;
+}
+
+bool hasEdge(const DirectedEdges& edges, std::size_t from, std::size_t to) {
+    return std::ranges::binary_search(edges, std::array{from, to});
+}
+
+bool isClosed(const CloudSurface& surface) {
+    const DirectedEdges edges =
+        directedEdges(surface.faces.size(), [&](std::size_t f) { return surface.corners(f); });
+    return std::ranges::all_of(edges,
+                               [&](const auto& edge) { return hasEdge(edges, edge[1], edge[0]); });
+}
+
+// Cuts ears off a loop, those with the shortest cut first.
+void fillLoop(const Cloud& cloud, std::vector<std::size_t> loop, std::vector<Facet>& facets) {
+    const auto at = [&](std::size_t i) { return loop[i % loop.size()]; };
+    while (loop.size() >= 3) {
+        std::size_t ear = 0;
+        double shortest = std::numeric_limits<double>::max();
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const double cut = CGAL::squared_distance(cloud.points[at(i)], cloud.points[at(i + 2)]);
+            if (cut < shortest) {
+                shortest = cut;
+                ear = i;
+            }
+        }
+        facets.push_back({at(ear), at(ear + 1), at(ear + 2)});
+        loop.erase(loop.begin() + static_cast<std::ptrdiff_t>((ear + 1) % loop.size()));
+    }
+}
+
+// The front leaves gaps where points are far apart for how the surface bends.
+void closeSmallHoles(const Cloud& cloud, std::vector<Facet>& facets) {
+    constexpr std::size_t kLongest = 24; // edges around one
+    const DirectedEdges edges =
+        directedEdges(facets.size(), [&](std::size_t f) { return facets[f]; });
+    std::vector<std::size_t> next(cloud.points.size(), cloud.points.size()); // around holes
+    std::vector<bool> crossed(cloud.points.size(), false); // by two holes: told apart by nothing
+    for (const auto& [from, to] : edges)
+        if (!hasEdge(edges, to, from)) {
+            crossed[to] = crossed[to] || next[to] != cloud.points.size();
+            next[to] = from;
+        }
+    for (std::size_t start = 0; start < next.size(); ++start) {
+        std::vector<std::size_t> loop;
+        std::size_t point = start;
+        while (point != next.size() && !crossed[point] && loop.size() <= kLongest) {
+            loop.push_back(point);
+            point = std::exchange(next[point], next.size());
+            if (point == start) {
+                fillLoop(cloud, std::move(loop), facets);
+                break;
+            }
+        }
+    }
+}
+
 } // namespace
 
 bool canRebuildFromPoints() {
@@ -116,6 +187,8 @@ void rebuildFromPoints(CloudSurface& surface) {
         return; // points that it cannot triangulate: the old faces stay
     }
     turnLikeBefore(surface, cloud, facets);
+    if (isClosed(surface))
+        closeSmallHoles(cloud, facets);
     std::vector<Triangle> faces;
     std::vector<std::uint32_t> primitives;
     for (const Facet& facet : facets) {

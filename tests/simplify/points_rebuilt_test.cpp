@@ -66,7 +66,7 @@ TEST_F(PointsRebuilt, SpheresFaceOutwardsAllOver) {
 
 TEST_F(PointsRebuilt, ClosedSurfacesStayClosedAndFaceAsBefore) {
     expectClosedAndAlike(meshes::sphere(24, 32, 0.0), 6.0);
-    expectClosedAndAlike(meshes::torus(40, 20), 3.0);
+    expectClosedAndAlike(meshes::torus(40, 20), 5.0);
     auto turned = std::make_shared<Geometry>(*meshes::sphere(24, 32, 0.0));
     for (std::size_t i = 0; i < turned->indices.size(); i += 3)
         std::swap(turned->indices[i + 1], turned->indices[i + 2]);
@@ -79,7 +79,8 @@ TEST_F(PointsRebuilt, ABunnyOfUnitSizeHasNoHoles) {
     const double size = localBounds(scene->submeshes[0]).diagonal();
     for (glm::vec3& position : unit->positions)
         position = glm::vec3(glm::dvec3(position) / size);
-    expectClosedAndAlike(unit, 2.0);
+    for (const double radius_percent : {1.0, 2.0, 3.0})
+        expectClosedAndAlike(unit, radius_percent);
 }
 
 } // namespace lodestone
