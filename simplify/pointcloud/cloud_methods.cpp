@@ -33,6 +33,8 @@ void runFaceAngle(CloudSurface& surface,
                   const Complex&,
                   const CloudSettings& settings,
                   const JobContext& job) {
+    if (!(settings.main > 0.0))
+        return; // cosines above 1 by rounding are of faces in one plane
     removeFlatVertices(
         surface, {settings.main, settings.area_share, settings.passes, settings.fidelity}, job);
 }

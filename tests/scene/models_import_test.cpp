@@ -91,6 +91,8 @@ TEST_F(ModelsImport, EveryGltfImportsOrTellsWhyInOneLine) {
 
 TEST_F(ModelsImport, NoModelOutsideTheBadOnesIsRefused) {
     for (const std::filesystem::path& file : tests::modelFiles()) {
+        if (!isGltf(file))
+            continue;
         const Result<ScenePtr> scene = importScene(file, {});
         EXPECT_TRUE(scene) << scene.error().message;
     }
