@@ -256,7 +256,7 @@ void ComponentMesh::addFaceQuadric(std::uint32_t face) {
     quadric.weight = faceWeight(face);
     if (!(quadric.weight > 0.0f))
         return;
-    addPlane(quadric, normals_[face], 0.0f, quadric.weight); // through its corners: offset 0
+    addSquare(quadric, normals_[face], 0.0f, quadric.weight); // through its corners: offset 0
     for (const std::uint32_t v : faces_[face])
         metrics_[v].quadric = sum(metrics_[v].quadric, quadric);
 }
@@ -334,8 +334,8 @@ void ComponentMesh::addBoundaryQuadric(std::uint32_t a, std::uint32_t b, std::ui
         if (options_.boundary_by_length)
             weight /= scale_;
         const auto w = static_cast<float>(weight * options_.boundary_weight);
-        addPlane(metrics_[a].quadric, unit, 0.0f, w);
-        addPlane(metrics_[b].quadric, unit, 0.0f, w);
+        addSquare(metrics_[a].quadric, unit, 0.0f, w);
+        addSquare(metrics_[b].quadric, unit, 0.0f, w);
     };
     if (weights_.uniform() && !options_.boundary_by_length) {
         const Float3 across = cross(edge, normal);

@@ -96,9 +96,11 @@ struct QuadricOf {
 
 using Quadric = QuadricOf<float>;
 
-// Adds weight * (distance to the plane with unit normal n at offset from the vertex)^2.
-inline void addPlane(Quadric& q, Float3 n, float offset, float weight) {
-    const Float3 w = n * weight;
+// Adds weight * (n.x + offset)^2. n of any length; with a unit normal that is the squared distance
+// to its plane, offset: of the vertex.
+template <class T>
+void addSquare(QuadricOf<T>& q, const Vector3<T>& n, const T& offset, const T& weight) {
+    const Vector3<T> w{n.x * weight, n.y * weight, n.z * weight};
     q.xx += w.x * n.x;
     q.yy += w.y * n.y;
     q.zz += w.z * n.z;

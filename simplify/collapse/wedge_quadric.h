@@ -19,22 +19,6 @@
 
 namespace lodestone {
 
-// Adds weight * (n.x + offset)^2, x relative to the quadric's origin; n of any length.
-template <class T>
-void addSquare(QuadricOf<T>& q, const Vector3<T>& n, const T& offset, const T& weight) {
-    const Vector3<T> w{n.x * weight, n.y * weight, n.z * weight};
-    q.xx += w.x * n.x;
-    q.yy += w.y * n.y;
-    q.zz += w.z * n.z;
-    q.xy += w.x * n.y;
-    q.xz += w.x * n.z;
-    q.yz += w.y * n.z;
-    q.bx += w.x * offset;
-    q.by += w.y * offset;
-    q.bz += w.z * offset;
-    q.c += weight * offset * offset;
-}
-
 // The predictions of all wedges of a mesh. Values are in its units of length.
 class WedgeQuadrics {
 public:

@@ -43,10 +43,10 @@ glm::dvec3 toDouble(Float3 v) {
 Quadric localQuadric(const std::vector<Plane>& planes, const glm::dvec3& vertex) {
     Quadric quadric;
     for (const Plane& plane : planes)
-        addPlane(quadric,
-                 toFloat(plane.normal),
-                 static_cast<float>(glm::dot(plane.normal, vertex - plane.point)),
-                 static_cast<float>(plane.weight));
+        addSquare(quadric,
+                  toFloat(plane.normal),
+                  static_cast<float>(glm::dot(plane.normal, vertex - plane.point)),
+                  static_cast<float>(plane.weight));
     return quadric;
 }
 
