@@ -1,7 +1,7 @@
 #include "simplify/quadric/quadric.h"
 
-#include "scene/expand.h"
 #include "simplify/collapse/parameters.h"
+#include "simplify/collapse/prepare.h"
 
 namespace lodestone {
 
@@ -14,12 +14,11 @@ Result<LodSourcePtr> prepareQuadric(const ScenePtr& scene,
     Result<EdgeCollapseOptions> options = readCollapseParameters(quadricAlgorithm(), values);
     if (!options)
         return tl::unexpected(options.error());
-    Result<ScenePtr> expanded = expandScene(*scene, job);
-    if (!expanded)
-        return tl::unexpected(expanded.error());
     options->remove_instances = false;
-    // Importance and locks speak of the input's submeshes, which are no longer there.
-    return prepareEdgeCollapse(*expanded, *options, {schedule.ordering, {}, {}}, job);
+    const Result<CollapseInput> input = expandInput(*scene, schedule, job);
+    if (!input)
+        return tl::unexpected(input.error());
+    return prepareEdgeCollapse(input->scene, *options, input->schedule, job);
 }
 
 Result<LodSourcePtr> prepareSubmesh(const ScenePtr& scene,

@@ -1,8 +1,8 @@
 #include "simplify/wild/wild.h"
 
-#include "scene/expand.h"
 #include "simplify/collapse/collapse_method.h"
 #include "simplify/collapse/parameters.h"
+#include "simplify/collapse/prepare.h"
 #include "simplify/wild/virtual_edges.h"
 #include "simplify/wild/wild_mesh.h"
 
@@ -66,15 +66,8 @@ private:
 
 enum class Scope : std::uint8_t { Auto, Submesh, Expanded };
 
-// Instancing is worth keeping from here on (the bound below which the IAS paper expands).
-constexpr double kInstancesPerSubmesh = 1.75;
-
 bool expands(const Scene& scene, Scope scope) {
-    if (scope != Scope::Auto)
-        return scope == Scope::Expanded;
-    const SceneCounts counts = countScene(scene);
-    return static_cast<double>(counts.instances) <
-           kInstancesPerSubmesh * static_cast<double>(counts.submeshes);
+    return scope == Scope::Auto ? hasFewInstances(scene) : scope == Scope::Expanded;
 }
 
 Result<LodSourcePtr> prepareWild(const ScenePtr& scene,
@@ -85,18 +78,15 @@ Result<LodSourcePtr> prepareWild(const ScenePtr& scene,
     if (const Result<void> checked = checkParameters(row, values); !checked)
         return tl::unexpected(checked.error());
     const auto value = [&](std::string_view id) { return parameterValue(row, values, id); };
-    ScenePtr input = scene;
-    ScheduleOptions order = schedule;
+    CollapseInput input{scene, schedule};
     EdgeCollapseOptions options;
     options.remove_instances = value("remove-instances") > 0.5;
     options.floors.enabled = value("floors") > 0.5;
     if (expands(*scene, static_cast<Scope>(value("scope")))) {
-        Result<ScenePtr> expanded = expandScene(*scene, job);
+        Result<CollapseInput> expanded = expandInput(*scene, schedule, job);
         if (!expanded)
             return tl::unexpected(expanded.error());
         input = std::move(*expanded);
-        // Importance and locks speak of the input's submeshes, which are no longer there.
-        order = {schedule.ordering, {}, {}};
         options.remove_instances = false;
     }
     WildOptions wild;
@@ -110,8 +100,8 @@ Result<LodSourcePtr> prepareWild(const ScenePtr& scene,
             static_cast<std::uint32_t>(value("atlas")), value("merge-materials") > 0.5, {}};
     options.collapse.boundary_weight = 0.0; // the area term stands in for it
     options.collapse.attributes = {0.0, 0.0, 0.0};
-    options.collapse.method = std::make_shared<const WildMethod>(input, wild, virtual_edges);
-    return prepareEdgeCollapse(input, options, order, job);
+    options.collapse.method = std::make_shared<const WildMethod>(input.scene, wild, virtual_edges);
+    return prepareEdgeCollapse(input.scene, options, input.schedule, job);
 }
 
 ParameterInfo number(std::string_view id, double maximum, double fallback) {
