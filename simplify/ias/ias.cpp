@@ -1,22 +1,8 @@
 #include "simplify/ias/ias.h"
 
-#include "simplify/collapse/parameters.h"
+#include "simplify/collapse/prepare.h"
 
 namespace lodestone {
-
-namespace {
-
-Result<LodSourcePtr> prepareIas(const ScenePtr& scene,
-                                const ParameterValues& values,
-                                const ScheduleOptions& schedule,
-                                const JobContext& job) {
-    const Result<EdgeCollapseOptions> options = readCollapseParameters(iasAlgorithm(), values);
-    if (!options)
-        return tl::unexpected(options.error());
-    return prepareEdgeCollapse(scene, *options, schedule, job);
-}
-
-} // namespace
 
 Algorithm iasAlgorithm() {
     Algorithm row;
@@ -30,7 +16,7 @@ Algorithm iasAlgorithm() {
     row.parameters = collapseParameters();
     row.parameters.push_back(removalParameter());
     row.parameters.push_back(removalRuleParameter());
-    row.prepare = prepareIas;
+    row.prepare = prepareSubmeshes<iasAlgorithm, Weighing::ByInstances>;
     return row;
 }
 

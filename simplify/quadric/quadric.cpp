@@ -1,6 +1,5 @@
 #include "simplify/quadric/quadric.h"
 
-#include "simplify/collapse/parameters.h"
 #include "simplify/collapse/prepare.h"
 
 namespace lodestone {
@@ -19,17 +18,6 @@ Result<LodSourcePtr> prepareQuadric(const ScenePtr& scene,
     if (!input)
         return tl::unexpected(input.error());
     return prepareEdgeCollapse(input->scene, *options, input->schedule, job);
-}
-
-Result<LodSourcePtr> prepareSubmesh(const ScenePtr& scene,
-                                    const ParameterValues& values,
-                                    const ScheduleOptions& schedule,
-                                    const JobContext& job) {
-    Result<EdgeCollapseOptions> options = readCollapseParameters(quadricSubmeshAlgorithm(), values);
-    if (!options)
-        return tl::unexpected(options.error());
-    options->weigh_instances = false;
-    return prepareEdgeCollapse(scene, *options, schedule, job);
 }
 
 } // namespace
@@ -59,7 +47,7 @@ Algorithm quadricSubmeshAlgorithm() {
     row.parameters = collapseParameters();
     row.parameters.push_back(removalParameter());
     row.parameters.push_back(removalRuleParameter());
-    row.prepare = prepareSubmesh;
+    row.prepare = prepareSubmeshes<quadricSubmeshAlgorithm, Weighing::Alone>;
     return row;
 }
 
