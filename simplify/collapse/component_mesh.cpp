@@ -228,24 +228,22 @@ Float3 ComponentMesh::faceNormal(const Corners& face) const {
 
 void ComponentMesh::buildQuadrics() {
     normals_.resize(faces_.size());
+    face_weights_.resize(faces_.size());
     for (std::uint32_t f = 0; f < faces_.size(); ++f)
         addFaceQuadric(f);
     for (std::uint32_t v = 0; v < points_.size(); ++v)
         addBoundaryQuadrics(v);
 }
 
-float ComponentMesh::faceWeight(std::uint32_t face) const {
+float ComponentMesh::faceWeight(std::uint32_t face, float area) const {
     const Corners& corners = faces_[face];
     const bool out = metrics_[corners[0]].locked || metrics_[corners[1]].locked ||
                      metrics_[corners[2]].locked; // then its area means nothing
-    const Float3 unit = normals_[face];
-    if (out || !(dot(unit, unit) > 0.0f))
+    if (out || !(area > 0.0f))
         return 0.0f;
-    const Float3 normal = faceNormal(corners);
-    const float weight = 0.5f * std::sqrt(dot(normal, normal));
-    return weights_.uniform()
-               ? weight
-               : weight * static_cast<float>(weights_.face({unit.x, unit.y, unit.z}));
+    const Float3 unit = normals_[face];
+    return weights_.uniform() ? area
+                              : area * static_cast<float>(weights_.face({unit.x, unit.y, unit.z}));
 }
 
 void ComponentMesh::addFaceQuadric(std::uint32_t face) {
@@ -253,7 +251,7 @@ void ComponentMesh::addFaceQuadric(std::uint32_t face) {
     const float length = std::sqrt(dot(normal, normal));
     normals_[face] = length > 0.0f ? normal * (1.0f / length) : Float3{};
     Quadric quadric;
-    quadric.weight = faceWeight(face);
+    quadric.weight = face_weights_[face] = faceWeight(face, 0.5f * length);
     if (!(quadric.weight > 0.0f))
         return;
     addSquare(quadric, normals_[face], 0.0f, quadric.weight); // through its corners: offset 0

@@ -177,7 +177,7 @@ protected: // what another metric on the same mesh builds on
     void gatherValues();
     void buildQuadrics();
     void addFaceQuadric(std::uint32_t face);
-    float faceWeight(std::uint32_t face) const; // 0: counts for nothing
+    float faceWeight(std::uint32_t face, float area) const; // 0: counts for nothing
     void chooseValues();
     float valueScale(std::uint32_t primitive, const WedgeAttributes::Slot& slot) const;
     float texcoordScale(std::uint32_t primitive, const WedgeAttributes::Slot& slot) const;
@@ -194,8 +194,11 @@ protected: // what another metric on the same mesh builds on
     static constexpr float kBackToBack = -0.98f;
 
     bool folded(std::uint32_t face_a, std::uint32_t face_b) const;
+
+    // Which wedges count when spokes are costed.
+    enum class SpokeWedges : std::uint8_t { None, OneEach, Several };
     // Keys of the spokes' edges, four at a time.
-    template <bool WithWedges>
+    template <SpokeWedges wedges>
     void costSpokeEdges(std::uint32_t v);
     void addMerges(const std::array<std::size_t, 4>& spokes,
                    const Vector3<Float4>& half,
@@ -286,6 +289,7 @@ protected: // what another metric on the same mesh builds on
     std::uint32_t live_faces_ = 0;
 
     std::vector<Float3> normals_;          // [faces] unit, at the start; 0 where degenerate
+    std::vector<float> face_weights_;      // [faces] area times instances; 0: counts for nothing
     std::vector<std::uint32_t> mark_face_; // [vertices] a face on the marked edge
     std::uint32_t stamp_ = 0;
     std::vector<std::uint32_t> local_of_vertex_; // [complex vertices], kNone outside load
@@ -347,11 +351,13 @@ ComponentMesh::Spokes ComponentMesh::costSpokes(std::uint32_t v, Accept accept) 
         }
     spokes_ = {found, count};
     spoke_keys_ = {spoke_key_memory_.data(), count};
-    if (wedge_quadrics_.active() || !wedge_counts_.empty()) {
-        gatherSpokePairs(v);
-        costSpokeEdges<true>(v);
+    if (!wedge_quadrics_.active() && wedge_counts_.empty()) {
+        costSpokeEdges<SpokeWedges::None>(v);
+    } else if (face_wedges_.empty()) {
+        costSpokeEdges<SpokeWedges::OneEach>(v);
     } else {
-        costSpokeEdges<false>(v);
+        gatherSpokePairs(v);
+        costSpokeEdges<SpokeWedges::Several>(v);
     }
     return {spokes_, spoke_keys_};
 }

@@ -107,34 +107,30 @@ void ComponentMesh::buildWedgeQuadrics() {
     shapes_.reserve(metrics_.size());
     for (const Metric& metric : metrics_)
         shapes_.push_back(metric.quadric);
-    const std::size_t count = wedge_quadrics_.valueCount();
-    std::vector<float> values(3 * count);
+    std::vector<float> values(wedge_quadrics_.valueCount());
+    for (std::uint32_t wedge = 0; wedge < log_.wedges.size(); ++wedge) {
+        scaledValues(wedge, values);
+        wedge_quadrics_.setValues(wedge, values);
+    }
     WedgeQuadrics::Face face;
-    face.values = values;
     for (std::uint32_t f = 0; f < faces_.size(); ++f) {
-        face.weight = faceWeight(f);
+        face.weight = face_weights_[f];
         if (!(face.weight > 0.0f))
             continue;
         for (std::size_t k = 0; k < 3; ++k) {
             face.positions[k] = points_[faces_[f][k]].position;
             face.wedges[k] = wedgeAt(f, faces_[f][k]);
-            scaledValues(face.wedges[k], std::span(values).subspan(k * count, count));
         }
         const Quadric gained = wedge_quadrics_.addFace(face);
         for (const std::uint32_t v : faces_[f])
             metrics_[v].quadric = sum(metrics_[v].quadric, gained);
     }
-    std::vector<bool> finished(log_.wedges.size(), false);
+    std::uint32_t next = 0; // wedges are numbered by first use
     for (std::uint32_t f = 0; f < faces_.size(); ++f)
-        for (const std::uint32_t v : faces_[f]) {
-            const std::uint32_t wedge = wedgeAt(f, v);
-            if (finished[wedge])
-                continue;
-            finished[wedge] = true;
-            scaledValues(wedge, std::span(values).first(count));
-            const Quadric lost = wedge_quadrics_.finish(wedge, std::span(values).first(count));
-            metrics_[v].quadric = difference(metrics_[v].quadric, lost);
-        }
+        for (const std::uint32_t v : faces_[f])
+            if (wedgeAt(f, v) == next)
+                metrics_[v].quadric =
+                    difference(metrics_[v].quadric, wedge_quadrics_.finish(next++));
 }
 
 // --- edges
@@ -156,11 +152,6 @@ Placement ComponentMesh::place(std::uint32_t a, std::uint32_t b) {
 void ComponentMesh::gatherSpokePairs(std::uint32_t v) {
     constexpr std::array<std::uint32_t, 2> kNoPair{kNone, kNone};
     spoke_pairs_.assign(spokes_.size(), {kNoPair, kNoPair});
-    if (face_wedges_.empty()) {
-        for (std::size_t i = 0; i < spokes_.size(); ++i)
-            spoke_pairs_[i][0] = {vertex_ids_[v], vertex_ids_[spokes_[i]]};
-        return;
-    }
     for (std::uint32_t i = 0; i < spokes_.size(); ++i)
         mark_face_[spokes_[i]] = i;
     const auto accepted = [&](std::uint32_t other) {
@@ -254,7 +245,7 @@ QuadricOf<Float4> lanes(const std::array<const Quadric*, 4>& q) {
 
 } // namespace
 
-template <bool WithWedges>
+template <ComponentMesh::SpokeWedges wedges>
 void ComponentMesh::costSpokeEdges(std::uint32_t v) {
     const QuadricOf<Float4> first = inAllLanes(metrics_[v].quadric);
     const Vector3<Float4> from = positionsOf({v, v, v, v});
@@ -271,19 +262,29 @@ void ComponentMesh::costSpokeEdges(std::uint32_t v) {
                                                 &metrics_[id[2]].quadric,
                                                 &metrics_[id[3]].quadric});
         QuadricOf<Float4> sum = sumAtMiddle(first, second, half);
-        if constexpr (WithWedges)
+        if constexpr (wedges == SpokeWedges::OneEach) {
+            const std::uint32_t own = vertex_ids_[v];
+            wedge_quadrics_.addMerges(
+                sum,
+                {own, own, own, own},
+                {vertex_ids_[id[0]], vertex_ids_[id[1]], vertex_ids_[id[2]], vertex_ids_[id[3]]},
+                half,
+                Float4{1.0f, 1.0f, 1.0f, 1.0f});
+        }
+        if constexpr (wedges == SpokeWedges::Several)
             addMerges(spoke, half, sum);
         const PlacementOf<Float4> placed = placeMerged(sum, first.c + second.c, half);
         for (std::size_t lane = 0; lane < std::min<std::size_t>(4, spokes_.size() - i); ++lane)
             spoke_keys_[i + lane] = placed.key[lane];
     }
-    if constexpr (WithWedges)
+    if constexpr (wedges == SpokeWedges::Several)
         for (std::size_t i = 0; options_.seams > 0.0 && i < spokes_.size(); ++i)
             if (!wedge_counts_.empty() && releasesSeam(v, spokes_[i], spoke_pairs_[i]))
                 spoke_keys_[i] /= static_cast<float>(options_.seams);
 }
 
-template void ComponentMesh::costSpokeEdges<false>(std::uint32_t v);
-template void ComponentMesh::costSpokeEdges<true>(std::uint32_t v);
+template void ComponentMesh::costSpokeEdges<ComponentMesh::SpokeWedges::None>(std::uint32_t v);
+template void ComponentMesh::costSpokeEdges<ComponentMesh::SpokeWedges::OneEach>(std::uint32_t v);
+template void ComponentMesh::costSpokeEdges<ComponentMesh::SpokeWedges::Several>(std::uint32_t v);
 
 } // namespace lodestone

@@ -58,6 +58,11 @@ bool ComponentMesh::releasesSeam(std::uint32_t a, std::uint32_t b) const {
 // Moves the predictions of all wedges of both ends to the target and merges those that become one.
 // Result: what the vertex's quadric gains, about the target.
 Quadric ComponentMesh::mergeWedgeQuadrics(std::uint32_t a, std::uint32_t b, Float3 target) {
+    if (face_wedges_.empty()) { // one each
+        wedge_quadrics_.move(vertex_ids_[a], target - points_[a].position);
+        wedge_quadrics_.move(vertex_ids_[b], target - points_[b].position);
+        return wedge_quadrics_.merge(vertex_ids_[a], vertex_ids_[b]);
+    }
     const auto move_all = [&](std::uint32_t v) {
         std::vector<std::uint32_t>& wedges = scratch_;
         wedges.clear();

@@ -24,6 +24,11 @@ void WedgeQuadrics::reset(std::size_t wedge_count, std::size_t value_count) {
     lines_.assign(wedge_count * value_count, Float4{});
 }
 
+void WedgeQuadrics::setValues(std::uint32_t wedge, std::span<const float> values) {
+    for (std::size_t i = 0; i < value_count_; ++i)
+        lines_[wedge * value_count_ + i][3] = values[i];
+}
+
 Quadric WedgeQuadrics::addFace(const Face& face) {
     // Slivers have no say across their height: beyond this squared ratio it is taken as longer.
     constexpr float kSliver = 1e-4f;
@@ -32,31 +37,53 @@ Quadric WedgeQuadrics::addFace(const Face& face) {
     const Float3 normal = cross(u, v);
     const float longest2 = std::max({dot(u, u), dot(v, v), dot(u - v, u - v)});
     const float scale = 1.0f / (dot(normal, normal) + kSliver * longest2 * longest2);
-    const Float3 to_second = cross(v, normal) * scale;
-    const Float3 to_third = cross(normal, u) * scale;
-    Quadric gained;
+    // A gradient is s times how much the second corner's value is larger than the first's, plus t
+    // times how much the third's is.
+    const Float3 s = cross(v, normal) * scale;
+    const Float3 t = cross(normal, u) * scale;
+    const Float4 s_line = Float4{s.x, s.y, s.z, 0.0f} * face.weight;
+    const Float4 t_line = Float4{t.x, t.y, t.z, 0.0f} * face.weight;
+    Float4* const first = lines_.data() + face.wedges[0] * value_count_;
+    Float4* const second = lines_.data() + face.wedges[1] * value_count_;
+    Float4* const third = lines_.data() + face.wedges[2] * value_count_;
+    float ss = 0.0f;
+    float st = 0.0f;
+    float tt = 0.0f;
     for (std::size_t i = 0; i < value_count_; ++i) {
-        const float first = face.values[i];
-        const Float3 gradient = to_second * (face.values[value_count_ + i] - first) +
-                                to_third * (face.values[2 * value_count_ + i] - first);
-        addSquare(gained, gradient, 0.0f, face.weight);
-        const Float4 add{gradient.x, gradient.y, gradient.z, 0.0f};
-        for (const std::uint32_t wedge : face.wedges)
-            lines_[wedge * value_count_ + i] += add * face.weight;
+        const float along_s = second[i][3] - first[i][3];
+        const float along_t = third[i][3] - first[i][3];
+        const Float4 weighted = s_line * along_s + t_line * along_t;
+        first[i] += weighted;
+        second[i] += weighted;
+        third[i] += weighted;
+        ss += along_s * along_s;
+        st += along_s * along_t;
+        tt += along_t * along_t;
     }
     for (const std::uint32_t wedge : face.wedges)
         weights_[wedge] += face.weight;
+    // All gradients' squares at once: s p^T + t q^T.
+    const Float3 p = (s * ss + t * st) * face.weight;
+    const Float3 q = (s * st + t * tt) * face.weight;
+    Quadric gained;
+    gained.xx = s.x * p.x + t.x * q.x;
+    gained.yy = s.y * p.y + t.y * q.y;
+    gained.zz = s.z * p.z + t.z * q.z;
+    gained.xy = s.x * p.y + t.x * q.y;
+    gained.xz = s.x * p.z + t.x * q.z;
+    gained.yz = s.y * p.z + t.y * q.z;
     return gained;
 }
 
-Quadric WedgeQuadrics::finish(std::uint32_t wedge, std::span<const float> values) {
+Quadric WedgeQuadrics::finish(std::uint32_t wedge) {
     Quadric lost;
     const float weight = weights_[wedge];
     for (std::size_t i = 0; i < value_count_; ++i) {
         Float4& line = lines_[wedge * value_count_ + i];
+        const float value = line[3];
         if (weight > 0.0f)
             line /= weight;
-        line[3] = values[i];
+        line[3] = value;
         addSquare(lost, gradientOf(line), 0.0f, weight);
     }
     return lost;

@@ -29,19 +29,20 @@ public:
 
     std::size_t valueCount() const { return value_count_; }
 
-    // --- building: all faces first, then every wedge once
+    // --- building: the values of all wedges, then all faces, then every wedge once
+
+    void setValues(std::uint32_t wedge, std::span<const float> values); // [valueCount()]
 
     struct Face {
         std::array<Float3, 3> positions;
         std::array<std::uint32_t, 3> wedges;
-        std::span<const float> values; // [3 * valueCount()]
-        float weight = 0.0f;           // area times instances, > 0
+        float weight = 0.0f; // area times instances, > 0
     };
 
     // Result: what the quadrics of its three vertices gain, relative to any of them.
     Quadric addFace(const Face& face);
-    // Result: what the quadric of its vertex loses again. values: [valueCount()]
-    Quadric finish(std::uint32_t wedge, std::span<const float> values);
+    // Result: what the quadric of its vertex loses again.
+    Quadric finish(std::uint32_t wedge);
 
     // --- collapsing
 

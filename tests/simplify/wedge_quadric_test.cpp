@@ -69,7 +69,8 @@ Fan randomFan(WedgeQuadrics& wedges, std::uint32_t wedge, std::mt19937& random) 
         face.wedges = {wedge, 2, 3}; // the others are of no interest
         const std::array<float, 6> values{
             own[0], own[1], unit(random), unit(random), unit(random), unit(random)};
-        face.values = values;
+        for (std::uint32_t k = 0; k < 3; ++k)
+            wedges.setValues(face.wedges[k], std::span(values).subspan(std::size_t{2} * k, 2));
         face.weight = 0.5f + 0.4f * unit(random);
         fan.quadric = sum(fan.quadric, wedges.addFace(face));
         const glm::dvec3 u = toDouble(face.positions[1] - face.positions[0]);
@@ -84,7 +85,7 @@ Fan randomFan(WedgeQuadrics& wedges, std::uint32_t wedge, std::mt19937& random) 
             fan.planes.push_back({gradient, offset, face.weight});
         }
     }
-    fan.quadric = difference(fan.quadric, wedges.finish(wedge, own));
+    fan.quadric = difference(fan.quadric, wedges.finish(wedge));
     return fan;
 }
 
@@ -190,8 +191,7 @@ TEST(WedgeQuadrics, SliversHaveNoSayAcrossTheirHeight) {
     WedgeQuadrics::Face face;
     face.positions = {Float3{0.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}, {0.5f, 1e-9f, 0.0f}};
     face.wedges = {0, 1, 2};
-    const std::array<float, 3> values{0.0f, 0.0f, 1.0f};
-    face.values = values;
+    wedges.setValues(2, std::array{1.0f});
     face.weight = 1.0f;
     EXPECT_LT(wedges.addFace(face).yy, 1.0f);
 }
