@@ -17,31 +17,31 @@ bool ComponentMesh::folded(std::uint32_t face_a, std::uint32_t face_b) const {
 
 // Sorts the faces around both ends of an edge: those with one end, and those that would die.
 void ComponentMesh::gatherRings(std::uint32_t a, std::uint32_t b) {
-    dying_.clear();
-    if (const std::size_t most = facesAround(a).size() + facesAround(b).size();
-        ring_memory_.size() < most)
+    const std::size_t most = facesAround(a).size() + facesAround(b).size();
+    if (ring_memory_.size() < most)
         ring_memory_.resize(2 * most);
+    dying_.resize(most);
+    std::uint32_t* dead = dying_.data();
     const auto gather = [&](std::uint32_t v, std::uint32_t other, RingFace* out) {
-        for (const std::uint32_t f : facesAround(v)) {
-            constexpr std::array<std::uint8_t, 3> kNext{1, 2, 0};
-            constexpr std::array<std::uint8_t, 3> kLast{2, 0, 1};
+        for (const std::uint32_t f : facesAround(v)) { // no branch: few die, any of them may
             const Corners& face = faces_[f];
-            const std::size_t k = // no branch: which corner it is cannot be foreseen
-                static_cast<std::size_t>(face[1] == v) + 2 * static_cast<std::size_t>(face[2] == v);
+            const std::size_t k = cornerOf(face, v);
             const std::uint32_t next = face[kNext[k]];
             const std::uint32_t last = face[kLast[k]];
+            const bool dies = (next == other) | (last == other);
             *out = {f, next, last};
-            if (next != other && last != other)
-                ++out;
-            else if (v == a)
-                dying_.push_back(f);
+            *dead = f;
+            out += static_cast<std::ptrdiff_t>(!dies);
+            dead += static_cast<std::ptrdiff_t>(dies);
         }
         return out;
     };
     RingFace* const begin = ring_memory_.data();
     RingFace* const middle = gather(a, b, begin);
+    const std::ptrdiff_t dying = dead - dying_.data(); // around b they are found once more
     ring_a_ = {begin, middle};
     ring_b_ = {middle, gather(b, a, middle)};
+    dying_.resize(static_cast<std::size_t>(dying));
 }
 
 bool ComponentMesh::hasFace(std::span<const RingFace> ring,
@@ -209,7 +209,7 @@ void ComponentMesh::mergeFaces(std::uint32_t a, std::uint32_t b) {
     for (const std::uint32_t f : dying_) {
         killFace(f);
         for (const std::uint32_t v : faces_[f])
-            if (v != a && v != b)
+            if ((v != a) & (v != b))
                 dropReference(v, f);
     }
     Ring& kept = rings_[a];
@@ -226,7 +226,7 @@ void ComponentMesh::mergeFaces(std::uint32_t a, std::uint32_t b) {
         *to++ = face.face;
     for (const RingFace& face : ring_b_) {
         Corners& corners = faces_[face.face];
-        corners[corners[0] == b ? 0 : corners[1] == b ? 1 : 2] = a;
+        corners[cornerOf(corners, b)] = a;
         *to++ = face.face;
     }
 }

@@ -161,11 +161,14 @@ void dropDoubles(Complex& complex, std::uint32_t begin, const JobContext& job) {
     if (job.stopRequested())
         return;
     const auto corners_of = [&](std::uint32_t f) {
-        std::array<std::uint32_t, 3> v;
-        for (std::size_t k = 0; k < 3; ++k)
-            v[k] = complex.wedge_vertex[complex.faces[f][k]];
-        std::rotate(v.begin(), std::ranges::min_element(v), v.end());
-        return v;
+        const std::uint32_t a = complex.wedge_vertex[complex.faces[f][0]];
+        const std::uint32_t b = complex.wedge_vertex[complex.faces[f][1]];
+        const std::uint32_t c = complex.wedge_vertex[complex.faces[f][2]];
+        // No branch: which of them is the least cannot be foreseen.
+        const std::size_t least = static_cast<std::size_t>((b < a) & (b < c)) +
+                                  2 * static_cast<std::size_t>((c < a) & (c < b));
+        const std::array twice{a, b, c, a, b};
+        return std::array{twice[least], twice[least + 1], twice[least + 2]};
     };
     const auto end = static_cast<std::uint32_t>(complex.faces.size());
     std::vector<std::uint32_t> at(complex.positions.size() + 1, 0);

@@ -284,9 +284,30 @@ bool ComponentMesh::seamBetween(std::uint32_t face_a,
     return std::ranges::any_of(attributes_.primitives[wedge_primitive_[m]].slots, differs);
 }
 
+// Whether the faces around a vertex are one closed fan that does not fold back: no border then.
+bool ComponentMesh::closesFan(std::uint32_t a) {
+    const std::uint32_t stamp = nextStamp();
+    for (const std::uint32_t face : facesAround(a)) {
+        const std::uint32_t next = faces_[face][kNext[cornerOf(faces_[face], a)]];
+        points_[next].mark = stamp;
+        mark_face_[next] = face;
+    }
+    bool closed = true;
+    for (const std::uint32_t face : facesAround(a)) {
+        const std::uint32_t last = faces_[face][kLast[cornerOf(faces_[face], a)]];
+        closed &= points_[last].mark == stamp;
+        points_[last].mark = 0; // once
+        const std::uint32_t beside = closed ? mark_face_[last] : face;
+        closed &= !(dot(normals_[face], normals_[beside]) < kBackToBack);
+    }
+    return closed;
+}
+
 // Borders: edges with one face, or with two that lie back to back. Seams get the same constraint,
 // so that a flat chequerboard keeps its squares, but may collapse like inner edges.
 void ComponentMesh::addBoundaryQuadrics(std::uint32_t a) {
+    if (face_wedges_.empty() && closesFan(a)) // no seam either
+        return;
     const std::uint32_t border = nextStamp();
     const std::uint32_t inner = nextStamp();
     std::uint32_t borders = 0;

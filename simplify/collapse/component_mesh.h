@@ -135,6 +135,13 @@ public:
 
 protected: // what another metric on the same mesh builds on
     using Corners = std::array<std::uint32_t, 3>;
+    static constexpr std::array<std::uint8_t, 3> kNext{1, 2, 0};
+    static constexpr std::array<std::uint8_t, 3> kLast{2, 0, 1};
+
+    // Which corner of a face its vertex is. No branch: that cannot be foreseen.
+    static std::size_t cornerOf(const Corners& face, std::uint32_t v) {
+        return static_cast<std::size_t>(face[1] == v) + 2 * static_cast<std::size_t>(face[2] == v);
+    }
 
     // Vertices by what is read together: checks look at many points, costing at few metrics.
     struct Point {
@@ -184,6 +191,7 @@ protected: // what another metric on the same mesh builds on
     void buildWedgeQuadrics();
     void scaledValues(std::uint32_t wedge, std::span<float> out) const;
     bool seamBetween(std::uint32_t face_a, std::uint32_t face_b, std::uint32_t vertex) const;
+    bool closesFan(std::uint32_t a);
     void addBoundaryQuadrics(std::uint32_t a);
     void addBoundaryQuadric(std::uint32_t a, std::uint32_t b, std::uint32_t face);
     void addSilhouetteQuadric(std::uint32_t a, std::uint32_t b, Float3 normal_a, Float3 normal_b);

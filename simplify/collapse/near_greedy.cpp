@@ -105,8 +105,12 @@ private:
     // Edges with an end that changed are costed anew; all others are still exact.
     void refresh() {
         std::ranges::sort(moved_); // walked in memory order
-        std::erase_if(edges_,
-                      [&](const Edge& edge) { return touched_[edge.a] || touched_[edge.b]; });
+        std::size_t kept = 0;
+        for (const Edge& edge : edges_) { // no branch: a good part of them goes
+            edges_[kept] = edge;
+            kept += static_cast<std::size_t>((touched_[edge.a] | touched_[edge.b]) == 0);
+        }
+        edges_.resize(kept);
         for (std::size_t i = 0; i < moved_.size(); ++i) {
             prefetchAhead(
                 i, moved_.size(), [&](std::size_t at, auto prefetch) { prefetch(moved_[at]); });

@@ -9,8 +9,7 @@ namespace lodestone {
 std::uint32_t ComponentMesh::wedgeAt(std::uint32_t face, std::uint32_t vertex) const {
     if (face_wedges_.empty())
         return vertex_ids_[vertex];
-    const Corners& corners = faces_[face];
-    return face_wedges_[face][corners[0] == vertex ? 0 : corners[1] == vertex ? 1 : 2];
+    return face_wedges_[face][cornerOf(faces_[face], vertex)];
 }
 
 // Which wedges become one when b goes into a: those that meet in a face on the edge, and with a
@@ -224,8 +223,7 @@ void ComponentMesh::mergeWedges(std::uint32_t a, float t) {
         killWedge(from, into);
     }
     for (const std::uint32_t f : facesAround(a)) {
-        const std::size_t k = faces_[f][0] == a ? 0 : faces_[f][1] == a ? 1 : 2;
-        std::uint32_t& wedge = face_wedges_[f][k];
+        std::uint32_t& wedge = face_wedges_[f][cornerOf(faces_[f], a)];
         for (const MergedWedges& merged : merged_wedges_)
             if (wedge == merged.from)
                 wedge = merged.into;
@@ -240,8 +238,7 @@ void ComponentMesh::mergeWedges(std::uint32_t a, float t) {
         if (merged.from == like)
             like = merged.into;
     for (const std::uint32_t f : facesAround(a)) {
-        const std::size_t k = faces_[f][0] == a ? 0 : faces_[f][1] == a ? 1 : 2;
-        const std::uint32_t wedge = face_wedges_[f][k];
+        const std::uint32_t wedge = wedgeAt(f, a);
         // The first corner with it adds the version: wedges in order of faces, each once.
         const bool seen = !log_.version_wedge.empty() && [&] {
             for (std::size_t i = log_.version_wedge.size(); i-- > 0;) {

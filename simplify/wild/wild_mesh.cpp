@@ -18,10 +18,6 @@ Float3 offEdge(Float3 along, Float3 to_third) {
     return off2 > 1e-12f * length2 ? off * (1.0f / std::sqrt(off2)) : Float3{};
 }
 
-std::size_t cornerOf(const std::array<std::uint32_t, 3>& corners, std::uint32_t v) {
-    return corners[0] == v ? 0 : corners[1] == v ? 1 : 2;
-}
-
 } // namespace
 
 WildMesh::WildMesh(const Complex& complex,
