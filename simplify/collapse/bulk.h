@@ -11,7 +11,9 @@ struct Bulk {
     glm::dvec3 center{0.0};
     double reach = std::numeric_limits<double>::infinity();
 
-    bool holds(const glm::dvec3& p) const { return glm::length(p - center) <= reach; }
+    bool holds(const glm::dvec3& p) const {
+        return glm::dot(p - center, p - center) <= reach * reach;
+    }
 };
 
 // Reaches 1e4 times as far as the spread of the middle 90 % of the points (of up to 4,096 evenly

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace lodestone {
@@ -97,21 +98,38 @@ void forEverySlot(const Geometry& geometry, WedgeAttributes::PrimitiveLayout& la
             visit(geometry.morph_targets[t].attributes[a], layout.morph_slots[t][a]);
 }
 
+// out: [components]
+void readValues(const Attribute& attribute,
+                std::size_t vertex,
+                std::size_t components,
+                float* out) {
+    if (attribute.type == ComponentType::Float32) { // nearly always
+        std::memcpy(
+            out, attribute.bytes.data() + vertex * attribute.stride(), components * sizeof(float));
+        return;
+    }
+    for (std::size_t c = 0; c < components; ++c)
+        out[c] = attributeValue(attribute, vertex, c);
+}
+
 void readSlot(const Attribute& attribute,
               Slot& slot,
               const Complex& complex,
               std::size_t primitive,
               WedgeAttributes& all) {
+    if (slot.components == 0)
+        return;
     slot.low.fill(std::numeric_limits<float>::max());
     slot.high.fill(std::numeric_limits<float>::lowest());
     for (std::size_t w = complex.wedge_begin[primitive]; w < complex.wedge_begin[primitive + 1];
-         ++w)
+         ++w) {
+        float* const values = all.values.data() + w * all.size + slot.offset;
+        readValues(attribute, complex.wedge_source[w], slot.components, values);
         for (std::uint32_t c = 0; c < slot.components; ++c) {
-            const float value = attributeValue(attribute, complex.wedge_source[w], c);
-            all.values[w * all.size + slot.offset + c] = value;
-            slot.low[c] = std::min(slot.low[c], value);
-            slot.high[c] = std::max(slot.high[c], value);
+            slot.low[c] = std::min(slot.low[c], values[c]);
+            slot.high[c] = std::max(slot.high[c], values[c]);
         }
+    }
     for (std::size_t c = 0; c < slot.low.size(); ++c)
         if (slot.low[c] > slot.high[c]) // no number among them
             slot.low[c] = slot.high[c] = 0.0f;
