@@ -1,5 +1,7 @@
 #include "app/drafts.h"
 
+#include "app/lod_position.h"
+
 #include <algorithm>
 
 namespace lodestone {
@@ -21,21 +23,6 @@ LodSourcePtr sourceFor(const Document& document, const Lane& lane) {
         return lane.status.source;
     const auto other = std::ranges::find_if(document.lanes, suits);
     return other == document.lanes.end() ? nullptr : other->status.source;
-}
-
-// The finest position with at most that many triangles.
-std::uint64_t positionFor(const LodSource& source, double triangle_count) {
-    const auto most = static_cast<std::uint64_t>(triangle_count);
-    std::uint64_t low = 0;
-    std::uint64_t high = source.positionCount() - 1;
-    while (low < high) {
-        const std::uint64_t middle = low + (high - low) / 2;
-        if (source.trianglesAt(middle) <= most)
-            high = middle;
-        else
-            low = middle + 1;
-    }
-    return low;
 }
 
 } // namespace
@@ -60,7 +47,7 @@ std::shared_ptr<const Lod> Drafts::draftOf(const Document& document, const Lane&
     const auto full = static_cast<double>(lane.status.lod->triangles);
     if (entry.wanted_triangles <= 0.0)
         entry.wanted_triangles = std::max(kFewestTriangles, full * kDraftMs / cost_ms);
-    const std::uint64_t position = positionFor(*source, std::min(full, entry.wanted_triangles));
+    const std::uint64_t position = finestWithin(*source, std::min(full, entry.wanted_triangles));
     if (entry.source != source || entry.position != position || !entry.lod) {
         const Lod* const previous = entry.source == source ? entry.lod.get() : nullptr;
         entry.lod = std::make_shared<const Lod>(source->readOut(position, previous));

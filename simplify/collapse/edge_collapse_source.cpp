@@ -1,6 +1,7 @@
 #include "simplify/collapse/edge_collapse_source.h"
 
 #include "simplify/collapse/seam_count.h"
+#include "simplify/geomorph.h"
 
 #include <algorithm>
 #include <chrono>
@@ -19,7 +20,7 @@ double secondsSince(std::chrono::steady_clock::time_point start) {
 // What seams may do, as CollapseOptions::seams says.
 enum class Seams : std::uint8_t { Strict, MayGo };
 
-class EdgeCollapseSource final : public LodSource {
+class EdgeCollapseSource final : public LodSource, public GeomorphSource {
 public:
     EdgeCollapseSource(std::shared_ptr<const SequenceSet> set,
                        Seams seams,
@@ -41,6 +42,7 @@ public:
     LodShape shapeAt(std::uint64_t position) const override;
     Resolved resolve(const Target& target, const ByteModel& bytes) const override;
     Lod readOut(std::uint64_t position, const Lod* previous) const override;
+    Geomorph geomorph(std::uint64_t fine, std::uint64_t coarse) const override;
 
     LodSourcePtr rescheduled(const ScheduleOptions& options,
                              const ByteModel& bytes) const override {
@@ -76,6 +78,7 @@ private:
     std::string whyMissed() const;
     std::string whatSeamsHold() const;
     void fillSubmesh(std::size_t s, SubmeshState state, Lod& lod) const;
+    double growthOf(std::size_t s, SubmeshState state) const;
 
     std::shared_ptr<const SequenceSet> set_;
     Seams seams_;
@@ -175,8 +178,13 @@ void EdgeCollapseSource::fillSubmesh(std::size_t s, SubmeshState state, Lod& lod
             to.primitives.push_back(primitive.geometry);
         return;
     }
-    const double growth = removal.possible() ? growthAt(removal, state.kept_instances) : 1.0;
-    to.primitives = readOutSubmesh(set_->sequences[s], submesh, state.step, growth, removal.pivot);
+    to.primitives =
+        readOutSubmesh(set_->sequences[s], submesh, state.step, growthOf(s, state), removal.pivot);
+}
+
+double EdgeCollapseSource::growthOf(std::size_t s, SubmeshState state) const {
+    const RemovalSequence& removal = set_->removals[s];
+    return removal.possible() ? growthAt(removal, state.kept_instances) : 1.0;
 }
 
 Lod EdgeCollapseSource::readOut(std::uint64_t position, const Lod* previous) const {
@@ -201,17 +209,37 @@ Lod EdgeCollapseSource::readOut(std::uint64_t position, const Lod* previous) con
     return lod;
 }
 
+Geomorph EdgeCollapseSource::geomorph(std::uint64_t fine, std::uint64_t coarse) const {
+    Geomorph geomorph;
+    geomorph.fine = readOut(fine, nullptr);
+    geomorph.ends.resize(geomorph.fine.submeshes.size());
+    tbb::parallel_for(std::size_t{0}, geomorph.ends.size(), [&](std::size_t s) {
+        const SubmeshState from = schedule_.stateAt(s, fine);
+        const SubmeshState to = schedule_.stateAt(s, coarse);
+        if (from == to)
+            return;
+        const CollapseSequence& sequence = set_->sequences[s];
+        const Submesh& submesh = set_->scene->submeshes[s];
+        const glm::dvec3& pivot = set_->removals[s].pivot;
+        // What the file has may be in other vertices than the sequence, which cleans it.
+        geomorph.fine.submeshes[s].primitives =
+            readOutSubmesh(sequence, submesh, from.step, growthOf(s, from), pivot);
+        geomorph.ends[s] =
+            readOutEnds(sequence, submesh, {from.step, to.step}, growthOf(s, to), pivot);
+    });
+    return geomorph;
+}
+
 Result<BakedScene> EdgeCollapseSource::transferred(const Lod& lod, const JobContext& job) const {
     if (!set_->bake)
         return LodSource::transferred(lod, job);
     std::vector<BakeSubmesh> submeshes(set_->sequences.size());
     for (std::size_t s = 0; s < submeshes.size(); ++s) {
-        const RemovalSequence& removal = set_->removals[s];
         const SubmeshState state = schedule_.stateAt(s, lod.position);
         submeshes[s] = {&set_->sequences[s],
                         state.step,
-                        removal.possible() ? growthAt(removal, state.kept_instances) : 1.0,
-                        removal.pivot,
+                        growthOf(s, state),
+                        set_->removals[s].pivot,
                         set_->max_stretch[s]};
     }
     return bakeTextures(*set_->scene, lod, submeshes, *set_->bake, job);

@@ -91,6 +91,8 @@ struct ReadOut {
                        const Attribute& from,
                        Attribute& to) const;
     void settleWeights(const AliveWedges& alive, std::vector<Attribute>& attributes) const;
+    void fillVertices(std::size_t primitive, const AliveWedges& alive, Geometry& to) const;
+    void fillMorphTargets(std::size_t primitive, const AliveWedges& alive, Geometry& to) const;
     void fillIndices(std::size_t primitive, Geometry& to) const;
     GeometryPtr readPrimitive(std::size_t primitive);
 };
@@ -215,24 +217,26 @@ void ReadOut::fillIndices(std::size_t primitive, Geometry& to) const {
         });
 }
 
-GeometryPtr ReadOut::readPrimitive(std::size_t primitive) {
-    const Primitive& source = submesh.primitives[primitive];
-    if (source.mode != PrimitiveMode::Triangles)
-        return source.geometry;
-    const Geometry& from = *source.geometry;
-    auto to = std::make_shared<Geometry>();
-    const AliveWedges alive = findAlive(primitive);
-    fillPositions(alive, from, *to);
+// Positions and attributes.
+void ReadOut::fillVertices(std::size_t primitive, const AliveWedges& alive, Geometry& to) const {
+    const Geometry& from = *submesh.primitives[primitive].geometry;
     const WedgeAttributes::PrimitiveLayout& layout = sequence.attributes.primitives[primitive];
+    fillPositions(alive, from, to);
     for (std::size_t a = 0; a < from.attributes.size(); ++a) {
-        const WedgeAttributes::Slot& slot = layout.slots[a];
-        to->attributes.push_back(emptyLike(from.attributes[a], alive.wedges.size()));
-        fillAttribute(alive, slot, from.attributes[a], to->attributes.back());
+        to.attributes.push_back(emptyLike(from.attributes[a], alive.wedges.size()));
+        fillAttribute(alive, layout.slots[a], from.attributes[a], to.attributes.back());
     }
     if (!layout.skin.empty())
-        settleWeights(alive, to->attributes);
+        settleWeights(alive, to.attributes);
+}
+
+void ReadOut::fillMorphTargets(std::size_t primitive,
+                               const AliveWedges& alive,
+                               Geometry& to) const {
+    const Geometry& from = *submesh.primitives[primitive].geometry;
+    const WedgeAttributes::PrimitiveLayout& layout = sequence.attributes.primitives[primitive];
     for (std::size_t t = 0; t < from.morph_targets.size(); ++t) {
-        std::vector<Attribute>& out = to->morph_targets.emplace_back().attributes;
+        std::vector<Attribute>& out = to.morph_targets.emplace_back().attributes;
         for (std::size_t a = 0; a < from.morph_targets[t].attributes.size(); ++a) {
             const Attribute& attribute = from.morph_targets[t].attributes[a];
             out.push_back(emptyLike(attribute, alive.wedges.size()));
@@ -241,8 +245,31 @@ GeometryPtr ReadOut::readPrimitive(std::size_t primitive) {
                 scaleValues(out.back(), static_cast<float>(scale));
         }
     }
+}
+
+GeometryPtr ReadOut::readPrimitive(std::size_t primitive) {
+    const Primitive& source = submesh.primitives[primitive];
+    if (source.mode != PrimitiveMode::Triangles)
+        return source.geometry;
+    auto to = std::make_shared<Geometry>();
+    const AliveWedges alive = findAlive(primitive);
+    fillVertices(primitive, alive, *to);
+    fillMorphTargets(primitive, alive, *to);
     fillIndices(primitive, *to);
     return to;
+}
+
+// Ready to read: wedges are resolved.
+ReadOut readingAt(const CollapseSequence& sequence,
+                  const Submesh& submesh,
+                  std::uint32_t step,
+                  double scale,
+                  const glm::dvec3& pivot) {
+    ReadOut read{sequence, submesh, step, scale, pivot, {}, {}};
+    read.stands_for.resize(sequence.complex.wedge_source.size());
+    read.vertex_of.resize(read.stands_for.size());
+    resolveWedges(sequence, step, read.stands_for);
+    return read;
 }
 
 } // namespace
@@ -292,13 +319,35 @@ std::vector<GeometryPtr> readOutSubmesh(const CollapseSequence& sequence,
                                         std::uint32_t step,
                                         double scale,
                                         const glm::dvec3& pivot) {
-    ReadOut read{sequence, submesh, step, scale, pivot, {}, {}};
-    read.stands_for.resize(sequence.complex.wedge_source.size());
-    read.vertex_of.resize(read.stands_for.size());
-    resolveWedges(sequence, step, read.stands_for);
+    ReadOut read = readingAt(sequence, submesh, step, scale, pivot);
     std::vector<GeometryPtr> primitives;
     for (std::size_t p = 0; p < submesh.primitives.size(); ++p)
         primitives.push_back(read.readPrimitive(p));
+    return primitives;
+}
+
+std::vector<GeometryPtr> readOutEnds(const CollapseSequence& sequence,
+                                     const Submesh& submesh,
+                                     const StepRange& steps,
+                                     double scale,
+                                     const glm::dvec3& pivot) {
+    ReadOut fine = readingAt(sequence, submesh, steps.fine, 1.0, pivot);
+    const ReadOut coarse = readingAt(sequence, submesh, steps.coarse, scale, pivot);
+    std::vector<GeometryPtr> primitives;
+    for (std::size_t p = 0; p < submesh.primitives.size(); ++p) {
+        if (submesh.primitives[p].mode != PrimitiveMode::Triangles) {
+            primitives.push_back(submesh.primitives[p].geometry);
+            continue;
+        }
+        AliveWedges wedges = fine.findAlive(p);
+        for (std::size_t i = 0; i < wedges.wedges.size(); ++i) {
+            wedges.wedges[i] = coarse.stands_for[wedges.wedges[i]];
+            wedges.versions[i] = versionAt(sequence, wedges.wedges[i], steps.coarse);
+        }
+        auto to = std::make_shared<Geometry>();
+        coarse.fillVertices(p, wedges, *to);
+        primitives.push_back(std::move(to));
+    }
     return primitives;
 }
 
