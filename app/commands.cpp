@@ -220,6 +220,17 @@ void run(Document& document, const SetLaneTarget& command) {
     });
 }
 
+void run(Document& document, const SlideLane& command) {
+    run(document, SetLaneTarget{command.lane, {Target::Kind::Ratio, command.ratio}, command.drag});
+    if (Lane* lane = document.findLane(command.lane))
+        lane->slides = std::isfinite(command.ratio);
+}
+
+void endSlides(Document& document) {
+    for (Lane& lane : document.lanes)
+        lane.slides = false;
+}
+
 void follow(Document& document, Lane& lane) {
     lane.settings.target = document.master;
     lane.settings.error_px = document.master_px;
@@ -356,6 +367,7 @@ void run(Document& document, const StepCollapses& command) {
 void run(Document& document, const Undo&) {
     if (!document.history.canUndo())
         return;
+    endSlides(document);
     restoreEdits(document, document.history.undo(editsOf(document)));
     ++document.revision;
 }
@@ -363,11 +375,13 @@ void run(Document& document, const Undo&) {
 void run(Document& document, const Redo&) {
     if (!document.history.canRedo())
         return;
+    endSlides(document);
     restoreEdits(document, document.history.redo(editsOf(document)));
     ++document.revision;
 }
 
 void run(Document& document, const EndDrag&) {
+    endSlides(document);
     document.history.endDrag();
 }
 

@@ -76,6 +76,12 @@ struct SetLaneTarget { // the lane stops following the master
     DragKey drag = 0;
 };
 
+struct SlideLane { // as SetLaneTarget; until EndDrag the vertices slide as the ratio moves
+    LaneId lane = kNoLane;
+    double ratio = 1.0; // 0..1
+    DragKey drag = 0;
+};
+
 struct SetMasterTarget { // every following lane gets it
     Target target;       // Ratio, Triangles or Bytes
     DragKey drag = 0;
@@ -169,6 +175,7 @@ using Command = std::variant<OpenScene,
                              SetLaneAlgorithm,
                              SetLaneParameter,
                              SetLaneTarget,
+                             SlideLane,
                              SetMasterTarget,
                              SetLanePixels,
                              SetMasterPixels,

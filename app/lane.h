@@ -81,6 +81,7 @@ struct Lane {
     LaneId id = kNoLane;
     LaneSettings settings;
     std::uint64_t revision = 1; // rises when a build would come out differently
+    bool slides = false;        // to its target, a ratio: its picture is a geomorph
     LaneStatus status;
 };
 

@@ -147,7 +147,8 @@ bool LaneWorker::refreshLane(Document& document, Lane& lane) {
         return setState(lane, LaneState::Failed, 0.0, work.failure->message);
     if (lane.settings.algorithm->family == Family::OneShot)
         return showOneShot(lane, work, std::move(wanted));
-    const bool shown = show(document, lane, work, std::move(wanted));
+    const bool shown =
+        slide(document, lane, work, wanted) || show(document, lane, work, std::move(wanted));
     return setState(lane, LaneState::Ready, 1.0) || shown;
 }
 
@@ -378,11 +379,30 @@ ReadOut LaneWorker::readOut(const Shown& wanted, const Lod* previous, const JobC
     return result;
 }
 
-bool LaneWorker::show(const Document& document, Lane& lane, Work& work, Shown wanted) {
-    if (work.shown.matches(wanted))
+bool LaneWorker::slide(const Document& document, Lane& lane, Work& work, const Shown& wanted) {
+    const bool slides = lane.slides && wanted.target && !wanted.position &&
+                        wanted.target->kind == Target::Kind::Ratio;
+    if (!slides || (work.slid && work.shown.matches(wanted)))
         return false;
-    const Lod* const previous =
-        work.shown.source == wanted.source ? lane.status.lod.get() : nullptr;
+    ReadOut between;
+    between.lod = work.slide.at(wanted.source, wanted.target->value);
+    if (!between.lod)
+        return false;
+    between.resolved.position = between.lod->position;
+    between.predicted_bytes = wanted.bytes->bytes(wanted.source->shapeAt(between.lod->position));
+    between.error_estimate = wanted.source->errorAt(between.lod->position);
+    work.reading = wanted;
+    work.slid = true; // its position may be that of the LOD shown: it is another all the same
+    commitReadOut(document, lane, work, std::move(between));
+    work.slid = true;
+    return true;
+}
+
+bool LaneWorker::show(const Document& document, Lane& lane, Work& work, Shown wanted) {
+    if (work.shown.matches(wanted) && !(work.slid && !lane.slides))
+        return false;
+    const bool shares = work.shown.source == wanted.source && !work.slid;
+    const Lod* const previous = shares ? lane.status.lod.get() : nullptr;
     ReadOut read_out = readOut(wanted, previous, {});
     work.reading = std::move(wanted);
     commitReadOut(document, lane, work, std::move(read_out));
@@ -414,7 +434,8 @@ void LaneWorker::commitReadOut(const Document& document, Lane& lane, Work& work,
     LaneStatus& status = lane.status;
     const LodSourcePtr& source = work.reading->source;
     const bool same_source = work.shown.source == source;
-    if (!same_source || !status.lod || status.lod->position != read_out.lod->position) {
+    if (std::exchange(work.slid, false) || !same_source || !status.lod ||
+        status.lod->position != read_out.lod->position) {
         jobs_.cancel(lane.id, JobKind::Measure);
         status.measuring = false;
         setShown(document, lane, std::move(read_out.lod));

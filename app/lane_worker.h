@@ -1,6 +1,7 @@
 #pragma once
 // Brings lanes up to date: build, schedule, resolve, read out. Main thread only.
 #include "app/jobs.h"
+#include "app/lane_slide.h"
 #include "app/source_cache.h"
 
 #include <map>
@@ -66,6 +67,8 @@ private:
         Scheduled scheduled;
         Shown shown;                  // what `status.lod` was made from
         std::optional<Shown> reading; // what the job that runs reads out
+        LaneSlide slide;
+        bool slid = false; // the LOD shown is none of the source's, but between two
     };
 
     void commitPrediction(Document& document, FinishedJob& finished);
@@ -87,6 +90,8 @@ private:
                          const ScheduleOptions& options,
                          const ByteModelPtr& bytes);
     bool show(const Document& document, Lane& lane, Work& work, Shown wanted);
+    // The same for a lane that slides; false if its source cannot, or it is shown already.
+    bool slide(const Document& document, Lane& lane, Work& work, const Shown& wanted);
     // The same for sources that take longer than a frame: a job reads out, and the newest wish
     // follows once it is back, so that a drag sees what there is.
     bool showOneShot(Lane& lane, Work& work, Shown wanted);

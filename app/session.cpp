@@ -268,27 +268,30 @@ struct Session::Impl {
 void Session::Impl::logLane(const Lane& lane, std::size_t index) {
     const LaneStatus& status = lane.status;
     const LaneNumbers& numbers = status.numbers;
-    log.object("lane",
-               std::to_string(lane.id),
-               fmt::format("\"index\":{},\"algorithm\":{},\"state\":{},\"lod\":{},"
-                           "\"triangles\":{},\"unique_triangles\":{},\"instances\":{},"
-                           "\"ratio\":{:.6f},\"bytes\":{},\"measured\":{},\"rate\":{},\"error_"
-                           "map\":{},\"flip\":{:.6f},\"note\":{}",
-                           index,
-                           jsonText(lane.settings.algorithm ? lane.settings.algorithm->id
-                                                            : std::string_view("original")),
-                           jsonText(laneStateName(status.state)),
-                           status.lod_revision,
-                           numbers.triangles,
-                           numbers.unique_triangles,
-                           numbers.instances,
-                           numbers.ratio,
-                           numbers.predicted_bytes,
-                           status.distance.has_value(),
-                           status.rate ? status.rate->frames : 0,
-                           status.error_map.lod_revision,
-                           status.flip.value_or(-1.0),
-                           jsonText(numbers.note)));
+    log.object(
+        "lane",
+        std::to_string(lane.id),
+        fmt::format(
+            "\"index\":{},\"algorithm\":{},\"state\":{},\"lod\":{},"
+            "\"triangles\":{},\"unique_triangles\":{},\"instances\":{},"
+            "\"ratio\":{:.6f},\"slides\":{},\"bytes\":{},\"measured\":{},\"rate\":{},\"error_"
+            "map\":{},\"flip\":{:.6f},\"note\":{}",
+            index,
+            jsonText(lane.settings.algorithm ? lane.settings.algorithm->id
+                                             : std::string_view("original")),
+            jsonText(laneStateName(status.state)),
+            status.lod_revision,
+            numbers.triangles,
+            numbers.unique_triangles,
+            numbers.instances,
+            numbers.ratio,
+            lane.slides,
+            numbers.predicted_bytes,
+            status.distance.has_value(),
+            status.rate ? status.rate->frames : 0,
+            status.error_map.lod_revision,
+            status.flip.value_or(-1.0),
+            jsonText(numbers.note)));
 }
 
 namespace {

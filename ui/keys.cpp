@@ -25,7 +25,7 @@ constexpr double kShineStep = 1.25;
 constexpr DragKey kAnimationDrag = 0x414e494d45ull; // a whole animation is one undo step
 constexpr DragKey kStepDrag = 0x5354455053ull; // collapsing while a key is held is one undo step
 
-constexpr std::array<Shortcut, 36> kShortcuts = {{
+constexpr std::array<Shortcut, 37> kShortcuts = {{
     {"Left drag", "orbit (also Alt+left, middle)"},
     {"Right drag", "pan (also Shift+middle)"},
     {"Wheel", "zoom"},
@@ -33,8 +33,8 @@ constexpr std::array<Shortcut, 36> kShortcuts = {{
     {"Home", "frame everything"},
     {"Numpad 1 3 7", "from the front, right, above"},
     {"Numpad 5", "perspective or parallel"},
-    {"1 / 0", "left drag moves the light / the camera"},
-    {"A", "animate the active lane down and up"},
+    {"1 / 0", "left drag: light / camera"},
+    {"A", "animate the lane down and up"},
     {"P", "play or stop the file's animation"},
     {"Tab", "hide or show the panels"},
     {"Space", "grid, or two lanes split by a divider"},
@@ -51,14 +51,15 @@ constexpr std::array<Shortcut, 36> kShortcuts = {{
     {"V / Shift+V", "split back two edges"},
     {"Ctrl+O", "open a file"},
     {"Ctrl+E", "export the active lane"},
-    {"Ctrl+3 6 9", "IAS vs Quadric, six methods, all nine"},
+    {"Ctrl+3 6 9", "IAS vs Quadric, six, all nine"},
     {"Ctrl+Z", "undo"},
     {"Ctrl+Shift+Z", "redo"},
     {"Ctrl+Q", "quit"},
-    {"Click in a view", "its lane is active, the instance selected"},
+    {"Click in a view", "select the instance, its lane"},
     {"Double click", "select all instances of the submesh"},
     {"Shift+click", "add to the selection, or take away"},
-    {"View > Mouse like", "Blender: middle drag; Maya: Alt+drag"},
+    {"Ctrl+drag", "select in a box; Shift adds"},
+    {"View > Mouse like", "drag as in Blender or Maya"},
     {"F1", "this sheet"},
     {"Esc", "cancel drag, dialog or job, then quit"},
     {"Drop a file", "open it"},
@@ -158,33 +159,39 @@ void stepKeys(const Ui& ui, LaneId lane) {
         ui.push(EndDrag{});
 }
 
+// The lane stays where it is.
+void endAnimation(const Ui& ui, WindowState& state) {
+    if (std::exchange(state.animation, {}).lane != kNoLane)
+        ui.push(EndDrag{});
+}
+
 // A: down and up through the schedule of the active lane, once in kAnimationSeconds, until A again.
 void animationKey(const Ui& ui, const Document& document, WindowState& state) {
     constexpr double kAnimationSeconds = 10.0;
     constexpr double kCoarsestLog10 = -2.5; // 0.3 %
-    Animation& animation = state.animation;
+    const Animation& animation = state.animation;
     const bool ends = animation.lane != kNoLane && pressed('A');
-    if (ends) {
-        ui.push(EndDrag{});
-        animation = {};
-    } else if (pressed('A')) {
-        animation = {document.active_lane, ImGui::GetTime()};
-    }
+    if (ends)
+        endAnimation(ui, state);
+    else if (pressed('A'))
+        state.animation = {document.active_lane, ImGui::GetTime()};
     const Lane* const lane = document.findLane(animation.lane);
     if (!lane || !lane->settings.algorithm)
         return;
     const double turns = (ImGui::GetTime() - animation.begin_s) / kAnimationSeconds;
     const double depth = 0.5 - 0.5 * std::cos(turns * 2.0 * std::numbers::pi);
     const double ratio = std::pow(10.0, kCoarsestLog10 * depth);
-    ui.push(SetLaneTarget{lane->id, {Target::Kind::Ratio, ratio}, kAnimationDrag});
+    ui.push(SlideLane{lane->id, ratio, kAnimationDrag});
     state.animate();
 }
 
 void escapeKey(const Ui& ui, const Document& document, WindowState& state) {
     if (ImGui::IsAnyMouseDown() && ImGui::IsAnyItemActive()) {
         ui.widgets.drag_cancelled = true;
-        ui.push(EndDrag{});
-        ui.push(Undo{});
+        if (document.history.dragging()) {
+            ui.push(EndDrag{});
+            ui.push(Undo{});
+        }
     } else if (state.welcome) {
         state.welcome = false;
     } else if (!document.jobs.empty()) {
@@ -207,8 +214,10 @@ void handleKeys(const Ui& ui, const PanelInput& input, WindowState& state) {
         state.full_screen_toggled = true;
     const bool popup =
         ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
-    if (popup || state.dialog != Dialog::None || ImGui::GetIO().WantTextInput)
+    if (popup || state.dialog != Dialog::None || ImGui::GetIO().WantTextInput) {
+        endAnimation(ui, state); // what is exported must not slide
         return;
+    }
     const Document& document = input.document;
     if (pressed(kKeyF1))
         state.open(Dialog::Shortcuts);

@@ -1,5 +1,6 @@
 #include "app/commands.h"
 #include "app/lane_worker.h"
+#include "scene/generate.h"
 #include "tests/app/fake_algorithm.h"
 #include "tests/scene/scene_fixtures.h"
 
@@ -70,6 +71,34 @@ TEST_F(LaneWorkerTest, ALaneIsBuiltInTheBackgroundAndThenShowsItsTarget) {
     EXPECT_EQ(lane(id).status.numbers.triangles, 12u);
     EXPECT_DOUBLE_EQ(lane(id).status.numbers.ratio, 0.2);
     EXPECT_GT(lane(id).status.numbers.predicted_bytes, 0u);
+}
+
+TEST_F(LaneWorkerTest, ALaneThatSlidesShowsWhatIsBetweenLodsAndTheTargetsOwnAfterwards) {
+    const Algorithm* const ias = findAlgorithm("ias");
+    ASSERT_TRUE(ias);
+    resetDocument(document, describeScene(generateScene("chair").value(), {}));
+    document.lanes.clear();
+    const LaneId id = addFakeLane(*ias);
+    settle();
+    const auto positionAt = [&](double ratio) {
+        return lane(id)
+            .status.source->resolve({Target::Kind::Ratio, ratio}, ByteModel(document.scene, {}))
+            .position;
+    };
+    for (const double ratio : {0.7, 0.69}) {
+        applyCommand(document, SlideLane{id, ratio, 7});
+        frame();
+        EXPECT_LT(lane(id).status.lod->position, positionAt(ratio)) << "the finer LOD's";
+    }
+    const auto slid = lane(id).status.lod;
+    frame();
+    EXPECT_EQ(lane(id).status.lod, slid) << "nothing moved";
+    applyCommand(document, EndDrag{});
+    frame();
+    EXPECT_NE(lane(id).status.lod, slid);
+    EXPECT_EQ(lane(id).status.lod->position, positionAt(0.69));
+    applyCommand(document, Undo{});
+    EXPECT_FALSE(document.history.canUndo()) << "the whole way is one step";
 }
 
 TEST_F(LaneWorkerTest, AOneShotLaneFollowsATargetInAJobAndKeepsItsPictureMeanwhile) {
