@@ -334,10 +334,21 @@ public:
         cursor.finished = true;
         if (Result<void> drawn = drawSorted(sorted); !drawn)
             return drawn;
-        if (Result<void> marked = drawHighlighted(); !marked)
-            return marked;
+        if (input_.marked_scene == nullptr)
+            if (Result<void> marked = drawHighlighted(); !marked)
+                return marked;
         if (input_.options.grid)
             drawGrid();
+        return {};
+    }
+
+    // Over the surfaces that are there already.
+    Result<void> drawHighlighted() {
+        for (const Highlight& highlight : input_.options.highlighted)
+            for (const DrawItem& item : input_.lod->state()->items)
+                if (item.submesh == highlight.submesh && item.mode == PrimitiveMode::Triangles)
+                    if (Result<void> drawn = drawHighlighted(item, highlight.instance); !drawn)
+                        return drawn;
         return {};
     }
 
@@ -390,16 +401,6 @@ private:
         return {};
     }
 
-    // Over the surfaces that are there already.
-    Result<void> drawHighlighted() {
-        for (const Highlight& highlight : input_.options.highlighted)
-            for (const DrawItem& item : input_.lod->state()->items)
-                if (item.submesh == highlight.submesh && item.mode == PrimitiveMode::Triangles)
-                    if (Result<void> drawn = drawHighlighted(item, highlight.instance); !drawn)
-                        return drawn;
-        return {};
-    }
-
     Result<void> drawHighlighted(const DrawItem& item, std::uint32_t instance) {
         DrawRange range{0, item.geometry->index_count, item.kept_instances};
         std::uint32_t place = 0;
@@ -448,6 +449,21 @@ private:
     DrawTotals totals_;
 };
 
+void useFrame(const RendererState& renderer, const FrameBlock& block) {
+    glBindBuffer(GL_UNIFORM_BUFFER, renderer.frameBuffer());
+    glBufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STREAM_DRAW);
+    glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, renderer.frameBuffer());
+}
+
+// What is highlighted and lies in another scene.
+Result<void> drawMarks(const View::Input& input, const Antialiasing& antialiasing) {
+    View::Input marks = input;
+    marks.scene = input.marked_scene;
+    marks.lod = input.marked_lod;
+    useFrame(*marks.scene->state().renderer, nearerFrameBlock(marks, antialiasing));
+    return ItemDrawer(marks, antialiasing).drawHighlighted();
+}
+
 } // namespace
 
 void drawBackground(const RendererState& renderer, const ViewOptions& options) {
@@ -480,12 +496,11 @@ Result<DrawTotals> drawLod(const View::Input& input,
                            std::uint64_t most_triangles) {
     const GpuSceneState& scene = input.scene->state();
     setFixedState();
-    const FrameBlock block = frameBlock(input, antialiasing);
-    glBindBuffer(GL_UNIFORM_BUFFER, scene.renderer->frameBuffer());
-    glBufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STREAM_DRAW);
-    glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, scene.renderer->frameBuffer());
+    useFrame(*scene.renderer, frameBlock(input, antialiasing));
     ItemDrawer drawer(input, antialiasing);
-    const Result<void> drawn = drawer.drawFrom(cursor, most_triangles);
+    Result<void> drawn = drawer.drawFrom(cursor, most_triangles);
+    if (drawn && cursor.finished && input.marked_scene != nullptr)
+        drawn = drawMarks(input, antialiasing);
     resetState();
     if (!drawn)
         return tl::unexpected(drawn.error());

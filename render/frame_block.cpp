@@ -71,4 +71,13 @@ FrameBlock frameBlock(const View::Input& input, const Antialiasing& antialiasing
     return block;
 }
 
+FrameBlock nearerFrameBlock(const View::Input& input, const Antialiasing& antialiasing) {
+    constexpr double kNearer = 0.003; // of the scene's radius: some LODs' error
+    FrameBlock block = frameBlock(input, antialiasing);
+    const glm::dmat4 projection = projectionMatrix(input.camera, input.size.aspect());
+    const double shift = projection[2][2] * kNearer * input.scene->state().frame.radius;
+    block.clip_from_scene[3][2] += static_cast<float>(shift);
+    return block;
+}
+
 } // namespace lodestone

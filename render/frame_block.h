@@ -25,4 +25,8 @@ struct FrameBlock {
 // input: with a scene. Positions are those of the scene's frame.
 FrameBlock frameBlock(const View::Input& input, const Antialiasing& antialiasing);
 
+// The same with every depth a little nearer to the eye, so that it shows over a surface that lies
+// where it does, or nearly so.
+FrameBlock nearerFrameBlock(const View::Input& input, const Antialiasing& antialiasing);
+
 } // namespace lodestone

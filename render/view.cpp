@@ -22,6 +22,7 @@ struct PictureKey {
     const GpuSceneState* scene = nullptr;
     std::uint64_t scene_revision = 0;
     std::uint64_t lod_revision = 0;
+    std::uint64_t marked_revision = 0; // of the LOD
     OrbitCamera camera;
     ViewOptions options;
     ViewSize size;
@@ -34,7 +35,9 @@ bool hasPicture(const View::Input& input) {
 }
 
 PictureKey keyOf(const View::Input& input) {
-    PictureKey key{nullptr, 0, 0, input.camera, input.options, input.size};
+    PictureKey key{nullptr, 0, 0, 0, input.camera, input.options, input.size};
+    if (input.marked_lod != nullptr)
+        key.marked_revision = input.marked_lod->revision();
     if (hasPicture(input)) {
         key.scene = &input.scene->state();
         key.scene_revision = input.scene->revision();

@@ -108,6 +108,10 @@ public:
         OrbitCamera camera;
         ViewOptions options;
         ViewSize size;
+        // Set: what is highlighted are submeshes and instances of this LOD of another scene, whose
+        // surfaces lie about where those of `scene` do, which has dissolved them.
+        const GpuScene* marked_scene = nullptr;
+        const LodHandle* marked_lod = nullptr; // set as marked_scene is
     };
 
     // Draws if scene, LOD, camera, options or size changed. Leaves the window's framebuffer bound.

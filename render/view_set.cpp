@@ -41,6 +41,16 @@ Result<ViewSet::Item*> ViewSet::itemOf(std::uint32_t key) {
     return &items_.emplace(key, Item(std::move(*view))).first->second;
 }
 
+View::Input ViewSet::inputOf(const Item& item) const {
+    View::Input input{
+        &scenes_.at(item.scene), &item.shown().handle, item.camera, item.options, item.size};
+    if (item.has_marks && marks_.lod) {
+        input.marked_scene = &scenes_.at(marks_.scene);
+        input.marked_lod = &marks_.handle;
+    }
+    return input;
+}
+
 // A call may still pack that much itself.
 bool ViewSet::takesNoLonger(std::uint64_t work) {
     if (last_work_.packed + work > kMostPackedPerCall)
@@ -64,7 +74,31 @@ Result<bool> ViewSet::isSceneReady(const ScenePtr& scene) {
     return true;
 }
 
+Result<bool> ViewSet::areMarksReady(const Wanted& wanted) {
+    if (!wanted.marked_lod || (marks_.lod == wanted.marked_lod && marks_.handle.valid()))
+        return true;
+    if (Result<bool> scene = isSceneReady(wanted.marked_scene); !scene || !*scene)
+        return scene;
+    GpuScene& scene = scenes_.at(wanted.marked_scene.get());
+    Result<LodPackage> package = scene.package(*wanted.marked_lod);
+    if (!package)
+        return tl::unexpected(package.error());
+    if (!takesNoLonger(package->work())) {
+        if (!delivery_.underWay())
+            delivery_.startLod(wanted.marked_scene, wanted.marked_lod, std::move(*package));
+        return false;
+    }
+    marks_ = {};
+    if (const auto updated = scene.update(marks_.handle, *wanted.marked_lod); !updated)
+        return tl::unexpected(updated.error());
+    marks_.lod = wanted.marked_lod;
+    marks_.scene = wanted.marked_scene.get();
+    return true;
+}
+
 Result<bool> ViewSet::isReady(const Item& item, const Wanted& wanted) {
+    if (Result<bool> marks = areMarksReady(wanted); !marks || !*marks)
+        return marks;
     if (Result<bool> scene = isSceneReady(wanted.scene); !scene || !*scene)
         return scene;
     const std::shared_ptr<const Lod>& lod = wanted.draft ? wanted.draft : wanted.lod;
@@ -90,8 +124,9 @@ Result<void> ViewSet::advanceDelivery(std::span<const Wanted> wanted) {
         return {};
     const DeliveryKey& key = *delivery_.key();
     const bool is_wanted = std::ranges::any_of(wanted, [&](const Wanted& lane) {
-        return lane.scene == key.scene &&
-               (!key.lod || key.lod == lane.lod || key.lod == lane.draft);
+        return (lane.scene == key.scene &&
+                (!key.lod || key.lod == lane.lod || key.lod == lane.draft)) ||
+               (lane.marked_scene == key.scene && (!key.lod || key.lod == lane.marked_lod));
     });
     if (!is_wanted) {
         delivery_.giveUp();
@@ -122,9 +157,11 @@ void ViewSet::forgetUnwanted(std::span<const Wanted> wanted) {
     });
     std::erase_if(scenes_, [&](const auto& entry) {
         return std::none_of(wanted.begin(), wanted.end(), [&](const Wanted& lane) {
-            return lane.scene.get() == entry.first;
+            return lane.scene.get() == entry.first || lane.marked_scene.get() == entry.first;
         });
     });
+    if (marks_.lod && std::ranges::find(wanted, marks_.lod, &Wanted::marked_lod) == wanted.end())
+        marks_ = {};
 }
 
 bool ViewSet::isStale(const Item& item,
@@ -132,7 +169,8 @@ bool ViewSet::isStale(const Item& item,
                       const OrbitCamera& camera,
                       const ViewOptions& options) {
     const bool draft = wanted.draft != nullptr;
-    return !item.complete || item.shows_draft != draft || item.scene != wanted.scene.get() ||
+    return !item.complete || item.has_marks != (wanted.marked_lod != nullptr) ||
+           item.shows_draft != draft || item.scene != wanted.scene.get() ||
            item.shown().lod != (draft ? wanted.draft : wanted.lod) || item.camera != camera ||
            item.options != optionsOf(wanted, options) || item.size != wanted.size;
 }
@@ -159,8 +197,10 @@ Result<bool> ViewSet::drawItem(Item& item,
     item.shows_draft = wanted.draft != nullptr;
     item.camera = camera;
     item.options = optionsOf(wanted, options);
-    const Result<DrawReport> report =
-        item.view.draw({&scene, &shown.handle, camera, item.options, wanted.size}, budget_ms);
+    item.has_marks = wanted.marked_lod != nullptr;
+    View::Input input = inputOf(item);
+    input.size = wanted.size; // the item's is that of a complete picture
+    const Result<DrawReport> report = item.view.draw(input, budget_ms);
     if (!report)
         return tl::unexpected(report.error());
     item.size = wanted.size;
@@ -233,10 +273,7 @@ Result<MeasureReport> ViewSet::measure(std::uint32_t key, const MeasureOptions& 
     const auto found = items_.find(key);
     if (found == items_.end() || !found->second.complete)
         return fail(ErrorKind::Usage, "this lane has no picture yet; wait for it");
-    Item& item = found->second;
-    return item.view.measure(
-        {&scenes_.at(item.scene), &item.shown().handle, item.camera, item.options, item.size},
-        options);
+    return found->second.view.measure(inputOf(found->second), options);
 }
 
 Result<Pixels> ViewSet::readPixels(std::uint32_t key) const {
@@ -250,12 +287,16 @@ std::optional<Picked> ViewSet::pick(std::uint32_t key, const glm::dvec2& point) 
     const auto item = items_.find(key);
     if (item == items_.end() || !item->second.drawn)
         return std::nullopt;
-    const Item& last = item->second;
-    const auto scene = scenes_.find(last.scene);
-    if (scene == scenes_.end())
+    if (!scenes_.contains(item->second.scene))
         return std::nullopt;
-    return lodestone::pick(
-        {&scene->second, &last.shown().handle, last.camera, last.options, last.size}, point);
+    return lodestone::pick(inputOf(item->second), point);
+}
+
+std::vector<Highlight> ViewSet::pickBox(std::uint32_t key, const PickBox& box) const {
+    const auto item = items_.find(key);
+    if (item == items_.end() || !item->second.drawn || !scenes_.contains(item->second.scene))
+        return {};
+    return lodestone::pickBox(inputOf(item->second), box);
 }
 
 } // namespace lodestone

@@ -3,6 +3,7 @@
 // a few a call so that no frame waits for all of them. Main thread, context current.
 #include "render/delivery.h"
 #include "render/pick.h"
+#include "render/pick_box.h"
 #include "render/view.h"
 
 #include <map>
@@ -24,6 +25,9 @@ public:
         std::shared_ptr<const Lod> draft;
         ViewSize size;
         std::vector<Highlight> highlighted; // in its scene
+        // Set: highlighted are those of this LOD of another scene (see View::Input).
+        ScenePtr marked_scene;
+        std::shared_ptr<const Lod> marked_lod; // set as marked_scene is; one in all lanes
     };
 
     struct Picture {
@@ -70,6 +74,8 @@ public:
 
     // What was last drawn under a point of a lane's picture (see pick.h). nullopt: nothing.
     std::optional<Picked> pick(std::uint32_t key, const glm::dvec2& point) const;
+    // What of it is in a box (see pick_box.h).
+    std::vector<Highlight> pickBox(std::uint32_t key, const PickBox& box) const;
 
 private:
     struct Item {
@@ -89,6 +95,7 @@ private:
         Uploaded draft;
         bool shows_draft = false;
         const Scene* scene = nullptr; // drawn last
+        bool has_marks = false;       // of marks_
         OrbitCamera camera;
         ViewOptions options;
         ViewSize size;
@@ -98,10 +105,12 @@ private:
     };
 
     Result<Item*> itemOf(std::uint32_t key);
+    View::Input inputOf(const Item& item) const; // as it was last drawn
     Result<void> advanceDelivery(std::span<const Wanted> wanted);
     Result<bool> isSceneReady(const ScenePtr& scene);
     // Whether it can be drawn now; else it is brought to the GPU, once it is its turn.
     Result<bool> isReady(const Item& item, const Wanted& wanted);
+    Result<bool> areMarksReady(const Wanted& wanted);
     bool takesNoLonger(std::uint64_t work);
     static bool isStale(const Item& item,
                         const Wanted& wanted,
@@ -120,6 +129,14 @@ private:
     std::map<std::uint32_t, Item> items_;
     std::map<const Scene*, GpuScene> scenes_; // each keeps its scene alive
     Delivery delivery_;
+
+    struct Marks { // what lanes of other scenes highlight
+        LodHandle handle;
+        std::shared_ptr<const Lod> lod;
+        const Scene* scene = nullptr;
+    };
+
+    Marks marks_;
     CallWork last_work_;
     std::uint64_t turn_ = 0;
 };

@@ -45,11 +45,26 @@ std::vector<ViewSet::Wanted> LanePictures::wantedPictures(const Document& docume
                           heat && status.error_map.lod ? status.error_map.lod : status.lod,
                           drafted ? drafts_.draftOf(document, *lane) : nullptr,
                           {sized.width_px, sized.height_px},
-                          {}});
-        if (status.scene == document.scene && !differences)
-            wanted.back().highlighted = highlighted;
+                          {},
+                          nullptr,
+                          nullptr});
+        if (differences || highlighted.empty() || !status.scene)
+            continue;
+        wanted.back().highlighted = highlighted;
+        if (status.scene != document.scene) { // it has dissolved submeshes and instances
+            wanted.back().marked_scene = document.scene;
+            wanted.back().marked_lod = fullOriginal(document);
+        }
     }
     return wanted;
+}
+
+std::shared_ptr<const Lod> LanePictures::fullOriginal(const Document& document) {
+    if (reference_scene_ != document.scene) {
+        reference_scene_ = document.scene;
+        reference_lod_ = std::make_shared<const Lod>(fullLod(*document.scene));
+    }
+    return reference_lod_;
 }
 
 // The original's picture, where a difference from it is wanted and no lane in view shows it.
@@ -59,11 +74,14 @@ void LanePictures::addReference(const Document& document, std::vector<ViewSet::W
     for (const ViewSet::Wanted& lane : wanted)
         if (!document.findLane(lane.key)->settings.algorithm)
             return;
-    if (reference_scene_ != document.scene) {
-        reference_scene_ = document.scene;
-        reference_lod_ = std::make_shared<const Lod>(fullLod(*document.scene));
-    }
-    wanted.push_back({kNoLane, reference_scene_, reference_lod_, nullptr, wanted.front().size, {}});
+    wanted.push_back({kNoLane,
+                      document.scene,
+                      fullOriginal(document),
+                      nullptr,
+                      wanted.front().size,
+                      {},
+                      nullptr,
+                      nullptr});
 }
 
 bool LanePictures::draw(Session& session, std::span<const ui::ViewRequest> views) {
@@ -160,24 +178,47 @@ void LanePictures::measureNext(Session& session) {
     }
 }
 
-std::optional<SelectedItem>
-LanePictures::pick(const Document& document, LaneId lane_id, const glm::dvec2& point) const {
+LaneId LanePictures::laneToPickFrom(const Document& document, LaneId lane_id) const {
     const auto shows_original = [&](LaneId id) {
         const Lane* const lane = document.findLane(id);
         return lane && lane->status.scene == document.scene;
     };
-    LaneId asked = lane_id;
-    if (!shows_original(asked)) {
-        const auto other = std::ranges::find_if(
-            shown_, [&](const ui::LanePicture& picture) { return shows_original(picture.lane); });
-        if (other == shown_.end())
-            return std::nullopt;
-        asked = other->lane;
-    }
-    const std::optional<Picked> picked = pictures_.pick(asked, point);
+    if (shows_original(lane_id))
+        return lane_id;
+    const auto other = std::ranges::find_if(
+        shown_, [&](const ui::LanePicture& picture) { return shows_original(picture.lane); });
+    return other == shown_.end() ? kNoLane : other->lane;
+}
+
+std::optional<SelectedItem>
+LanePictures::pick(const Document& document, LaneId lane, const glm::dvec2& point) const {
+    const LaneId asked = laneToPickFrom(document, lane);
+    const std::optional<Picked> picked =
+        asked == kNoLane ? std::nullopt : pictures_.pick(asked, point);
     if (!picked)
         return std::nullopt;
     return SelectedItem{picked->submesh, picked->instance};
+}
+
+std::vector<SelectedItem>
+LanePictures::pickBox(const Document& document, LaneId lane, const PickBox& box) const {
+    const LaneId asked = laneToPickFrom(document, lane);
+    if (asked == kNoLane || !document.scene)
+        return {};
+    const std::vector<Highlight> picked = pictures_.pickBox(asked, box);
+    const std::vector<InstanceRange> ranges = instanceRanges(*document.scene);
+    std::vector<SelectedItem> items;
+    for (auto begin = picked.begin(); begin != picked.end();) {
+        const auto end = std::ranges::find_if(
+            begin, picked.end(), [&](const Highlight& at) { return at.submesh != begin->submesh; });
+        if (static_cast<std::size_t>(end - begin) == ranges[begin->submesh].size())
+            items.push_back({begin->submesh, kNone});
+        else
+            for (auto at = begin; at != end; ++at)
+                items.push_back({at->submesh, at->instance});
+        begin = end;
+    }
+    return items;
 }
 
 // Lanes whose picture becomes another one rest a moment later: all of them when the camera or the

@@ -41,6 +41,10 @@ public:
     std::optional<SelectedItem>
     pick(const Document& document, LaneId lane, const glm::dvec2& point) const;
 
+    // The same for a box of the view; a submesh of which every instance is in it stands as one.
+    std::vector<SelectedItem>
+    pickBox(const Document& document, LaneId lane, const PickBox& box) const;
+
     // The camera turned as it is, near enough that the part, or the whole scene if it is empty,
     // fills the views.
     CameraState framedCamera(const Document& document, const Bounds& part);
@@ -48,6 +52,9 @@ public:
 private:
     std::vector<ViewSet::Wanted> wantedPictures(const Document& document,
                                                 std::span<const ui::ViewRequest> views);
+    std::shared_ptr<const Lod> fullOriginal(const Document& document);
+    // The lane itself or, if it shows another scene, one in view that shows the original's.
+    LaneId laneToPickFrom(const Document& document, LaneId lane) const;
     void addReference(const Document& document, std::vector<ViewSet::Wanted>& wanted);
     void compare(Session& session, std::span<const ViewSet::Picture> drawn);
     void measureNext(Session& session);

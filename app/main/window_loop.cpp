@@ -28,6 +28,9 @@ public:
         facts_.pick = [this](LaneId lane, const glm::dvec2& point) {
             return pictures_.pick(session_.document(), lane, point);
         };
+        facts_.pickBox = [this](LaneId lane, const glm::dvec2& min, const glm::dvec2& max) {
+            return pictures_.pickBox(session_.document(), lane, {min, max});
+        };
         facts_.renderer = shortRendererName(context.info().renderer);
         if (request.file)
             commands_.push(OpenScene{*request.file});

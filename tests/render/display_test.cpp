@@ -65,6 +65,32 @@ TEST_F(DisplayTest, AHighlightMarksTheSubmeshOrOneInstance) {
     EXPECT_FALSE(marked(-1.0) || marked(1.0));
 }
 
+TEST_F(DisplayTest, AnotherScenesInstancesAreMarkedOverASurfaceThatLiesWhereTheyDo) {
+    auto both = std::make_shared<Geometry>(); // two squares that are one mesh
+    for (const float x : {-1.0f, 1.0f})
+        for (const glm::vec3& position : square(false)->positions)
+            both->positions.push_back(position + glm::vec3(x, 0.0f, 0.0f));
+    both->indices = {0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7};
+    const auto instanced = sceneOf(square(true), unlit({0.0f, 0.0f, 0.0f, 1.0f}));
+    instanced->instances.resize(2);
+    instanced->instances[0].transform[3] = glm::dvec4(-1.0, 0.0, -0.001, 1.0); // behind it
+    instanced->instances[1].transform[3] = glm::dvec4(1.0, 0.0, -0.001, 1.0);
+    load(sceneOf(both, unlit({0.0f, 0.0f, 0.0f, 1.0f})));
+    Result<GpuScene> marked = GpuScene::create(*renderer_, instanced);
+    ASSERT_TRUE(marked) << marked.error().message;
+    LodHandle lod;
+    ASSERT_TRUE(marked->update(lod, fullLod(*instanced)));
+    input_.marked_scene = &*marked;
+    input_.marked_lod = &lod;
+    input_.options.highlight_srgb = glm::vec3(0.0f, 1.0f, 0.0f);
+    const auto is_marked = [&](double x) { return at(draw(), x, 0.3)[1] > 100; };
+    EXPECT_FALSE(is_marked(-1.0) || is_marked(1.0));
+    input_.options.highlighted = {{0, 1}};
+    EXPECT_TRUE(!is_marked(-1.0) && is_marked(1.0));
+    input_.options.highlighted = {{0, kNone}};
+    EXPECT_TRUE(is_marked(-1.0) && is_marked(1.0));
+}
+
 TEST_F(DisplayTest, AHighlightFindsItsInstanceInALodsOrder) {
     const auto scene = sceneOf(square(true), unlit({0.0f, 0.0f, 0.0f, 1.0f}));
     scene->instances.resize(2);
