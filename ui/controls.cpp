@@ -141,17 +141,24 @@ bool toggle(const Ui& ui, std::string_view label, bool& value) {
     return pressed;
 }
 
+void closeOnEscape() {
+    if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false))
+        ImGui::CloseCurrentPopup();
+}
+
 std::optional<int>
 combo(const Ui& ui, std::string_view label, std::span<const std::string> items, int selected) {
     std::optional<int> chosen;
     const std::string id = "##" + std::string(label);
     const bool known = selected >= 0 && selected < static_cast<int>(items.size());
-    const char* const preview = known ? items[static_cast<std::size_t>(selected)].c_str() : "";
     const float width = ImGui::GetContentRegionAvail().x;
+    const std::string preview =
+        known ? fitText(ui, items[static_cast<std::size_t>(selected)], width - ui.px(32))
+              : std::string();
     ImGui::SetNextItemWidth(width);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(8), ui.px(5)});
     const ImVec2 min = ImGui::GetCursorScreenPos();
-    const bool open = ImGui::BeginCombo(id.c_str(), preview, ImGuiComboFlags_NoArrowButton);
+    const bool open = ImGui::BeginCombo(id.c_str(), preview.c_str(), ImGuiComboFlags_NoArrowButton);
     const float height = ImGui::GetFrameHeight();
     ImGui::PopStyleVar();
     if (!open)
@@ -159,6 +166,7 @@ combo(const Ui& ui, std::string_view label, std::span<const std::string> items, 
     const ImVec2 arrow{min.x + width - ui.px(13), min.y + height * 0.5f};
     const float half = ui.px(4);
     if (open) {
+        closeOnEscape();
         for (std::size_t at = 0; at < items.size(); ++at) {
             const bool is_selected = static_cast<int>(at) == selected;
             if (ImGui::Selectable(items[at].c_str(), is_selected) && !is_selected)

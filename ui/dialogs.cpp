@@ -231,7 +231,7 @@ void drawShortcuts(const Ui& ui, WindowState& state) {
         state.sheet_filter.clear();
         ImGui::SetKeyboardFocusHere();
     }
-    const float column = ui.px(350);
+    const float column = ui.px(380);
     const float width = 2 * column + ui.px(24);
     textField(ui, "Search", state.sheet_filter, width);
     if (state.sheet_filter.empty())

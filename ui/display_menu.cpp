@@ -94,7 +94,7 @@ void displayItems(const Ui& ui, const DisplayOptions& view) {
 
 float displayButton(const Ui& ui, const PanelInput& input, float right, float middle) {
     const std::string_view title = shadingTitle(input.document.view.shading);
-    const float width = ui.px(100);
+    const float width = ui.px(120);
     const float height = ui.px(22);
     const ImVec2 min{right - width, middle - height * 0.5f};
     ImGui::SetCursorScreenPos(min);
@@ -121,6 +121,7 @@ float displayButton(const Ui& ui, const PanelInput& input, float right, float mi
         Ui named = ui;
         named.panel = "Display";
         displayItems(named, input.document.view);
+        closeOnEscape();
         ImGui::EndPopup();
     }
     ImGui::PopStyleVar(2);

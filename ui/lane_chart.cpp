@@ -165,6 +165,7 @@ void drawReading(const Ui& ui,
     if (ratio < 0.0 || ratio > 1.0)
         return;
     verticalHairline(ui, x, axes.plot.position.y, axes.plot.end().y);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(10), ui.px(8)});
     ImGui::BeginTooltip();
     ImGui::TextDisabled("%s of the triangles", formatRatio(ratio).c_str());
     for (const Lane& lane : input.document.lanes) {
@@ -179,6 +180,7 @@ void drawReading(const Ui& ui,
         ImGui::Text("%s  %s", name.c_str(), axes.text(value).c_str());
     }
     ImGui::EndTooltip();
+    ImGui::PopStyleVar();
 }
 
 } // namespace

@@ -77,8 +77,7 @@ void drawPicture(
     ui.record("picture");
     if (ImGui::IsItemActivated())
         ui.push(SetActiveLane{lane.id});
-    laneGestures(ui, input, state, area);
-    pickGesture(ui, input, lane.id, area);
+    pictureGestures(ui, input, state, lane.id, area);
     drawLegend(ui, input.document, lane, area);
     drawLaneState(ui, state, lane, picture && picture->draft, area);
     requestPicture(input, state, lane.id, area);
@@ -106,22 +105,33 @@ void drawCell(
     ImGui::PopID();
 }
 
-// A cell without a lane: what could be there.
+// A cell without a lane: what could be there, in as many columns as its height asks for.
 void drawFreeCell(const Ui& ui, const Area& area) {
-    const auto rows = static_cast<float>(algorithms().size() + 1);
-    const float line = ui.px(26);
-    ImVec2 at{area.position.x + area.size.x * 0.5f - ui.px(70),
-              area.position.y + (area.size.y - rows * line) * 0.5f};
-    drawText(ui, at, Align::Left, "Add a lane", {nullptr, color::kSecondary});
-    for (const Algorithm& algorithm : algorithms()) {
-        at.y += line;
-        if (at.y + line > area.end().y)
-            return;
+    const float line = ui.px(24);
+    const float margin = ui.px(16);
+    const std::span<const Algorithm> all = algorithms();
+    const float height = area.size.y - 2 * margin;
+    const auto rows = std::max<std::size_t>(1, static_cast<std::size_t>(height / line) - 1);
+    const std::size_t columns = (all.size() + rows - 1) / rows;
+    const std::size_t in_column = (all.size() + columns - 1) / columns;
+    const float wanted = columns == 1 ? ui.px(220) : area.size.x;
+    const float width = (std::min(wanted, area.size.x) - 2 * margin) / static_cast<float>(columns);
+    const float left = area.position.x + (area.size.x - width * static_cast<float>(columns)) * 0.5f;
+    const float top =
+        area.position.y +
+        std::max(margin, (area.size.y - line * static_cast<float>(in_column + 1)) * 0.5f);
+    drawText(ui, {left, top}, Align::Left, "Add a lane", {nullptr, color::kSecondary});
+    for (std::size_t at = 0; at < all.size(); ++at) {
+        const auto column = static_cast<float>(at / in_column);
+        const auto row = static_cast<float>(at % in_column + 1);
+        const ImVec2 place{left + width * column, top + line * row};
         ImGui::GetWindowDrawList()->AddCircleFilled(
-            at + ImVec2(ui.px(4), ui.px(8)), ui.px(4), packed(laneColour(&algorithm, 0)), 24);
-        ImGui::SetCursorScreenPos(at + ImVec2(ui.px(16), 0));
-        if (linkButton(ui, algorithm.name))
-            ui.push(AddLane{std::string(algorithm.id)});
+            place + ImVec2(ui.px(4), ui.px(8)), ui.px(4), packed(laneColour(&all[at], 0)), 24);
+        ImGui::SetCursorScreenPos(place + ImVec2(ui.px(16), 0));
+        const std::string_view name = columns == 1 ? all[at].name : all[at].short_name;
+        if (linkButton(ui, fitText(ui, name, width - ui.px(24))))
+            ui.push(AddLane{std::string(all[at].id)});
+        tooltip(ui, all[at].summary);
     }
 }
 

@@ -3,7 +3,7 @@
 #include "ui/camera_gestures.h"
 #include "ui/format.h"
 #include "ui/lane_text.h"
-#include "ui/widgets.h"
+#include "ui/legend.h"
 
 #include <algorithm>
 #include <cmath>
@@ -77,6 +77,7 @@ void drawLaneHeader(
             12);
     if (ImGui::BeginPopup("lane menu")) {
         laneMenu(ui, input, state, lane);
+        closeOnEscape();
         ImGui::EndPopup();
     }
 }
@@ -167,79 +168,117 @@ void drawLaneFooter(const Ui& ui, const Lane& lane, const Area& area) {
     put(" fps", {});
 }
 
-// Over the picture: what the lane is busy with, or why it shows nothing.
+namespace {
+
+void drawBusy(const Ui& ui, const Lane& lane, const Area& area) {
+    const LaneStatus& status = lane.status;
+    const ImU32 colour = packed(lane.settings.colour);
+    const ImVec2 middle = area.position + ImVec2(area.size.x * 0.5f, area.size.y * 0.5f);
+    const bool empty = !status.lod;
+    const ImVec2 at = empty ? middle - ImVec2(0, ui.px(14))
+                            : ImVec2(area.end().x - ui.px(18), area.position.y + ui.px(18));
+    spinner(ui, at, empty ? ui.px(11) : ui.px(7), colour);
+    if (empty)
+        drawText(ui,
+                 {middle.x, middle.y + ui.px(8)},
+                 Align::Center,
+                 status.state == LaneState::Queued ? "Waiting" : "Building",
+                 {nullptr, color::kSecondary});
+    const ImVec2 begin{area.position.x, area.end().y - ui.px(3)};
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(begin, area.end(), color::kHairline);
+    list.AddRectFilled(
+        begin, {begin.x + area.size.x * static_cast<float>(status.progress), area.end().y}, colour);
+}
+
+void drawFailure(const Ui& ui, const Lane& lane, const Area& area) {
+    const ImVec2 middle = area.position + ImVec2(area.size.x * 0.5f, area.size.y * 0.5f);
+    drawOnPlate(ui,
+                {middle.x, middle.y - ui.px(22)},
+                Align::Center,
+                "Failed",
+                {ui.theme.fonts.semibold, color::kError});
+    drawOnPlate(ui,
+                middle,
+                Align::Center,
+                fitText(ui, lane.status.failure, area.size.x - ui.px(36)),
+                {nullptr, color::kSecondary});
+    ImGui::SetCursorScreenPos({middle.x - ui.px(14), middle.y + ui.px(24)});
+    if (linkButton(ui, "Retry", color::kAccent))
+        ui.push(RetryLane{lane.id});
+}
+
+// Why the target was missed: a mark in the corner that tells when it is hovered; in words where
+// there is room.
+void drawNote(const Ui& ui, std::string_view note, const Area& area) {
+    const float size = ui.px(16);
+    const ImVec2 min{area.position.x + ui.px(8), area.end().y - size - ui.px(8)};
+    const ImVec2 middle = min + ImVec2(size * 0.5f, size * 0.5f);
+    const bool roomy = area.size.x >= ui.px(420) && area.size.y >= ui.px(240);
+    if (roomy)
+        drawOnPlate(ui,
+                    {min.x + size + ui.px(4), middle.y - ui.px(10)},
+                    Align::Left,
+                    fitText(ui, note, area.size.x * 0.5f, ui.theme.fonts.small),
+                    {ui.theme.fonts.small, color::kWarning});
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddCircleFilled(middle, size * 0.5f, color::kWarning, 24);
+    drawText(ui,
+             {middle.x, middle.y - ui.theme.fonts.semibold->FontSize * 0.5f},
+             Align::Center,
+             "!",
+             {ui.theme.fonts.semibold, color::kBackground});
+    ImGui::SetCursorScreenPos(min);
+    ImGui::InvisibleButton("note", {size, size});
+    ui.record("note");
+    tooltip(ui, note);
+}
+
+} // namespace
+
 void drawLaneState(
     const Ui& ui, WindowState& state, const Lane& lane, bool draft, const Area& area) {
     const LaneStatus& status = lane.status;
-    const ImU32 colour = packed(lane.settings.colour);
-    const bool busy = status.state == LaneState::Building || status.state == LaneState::Queued;
-    const ImVec2 middle = area.position + ImVec2(area.size.x * 0.5f, area.size.y * 0.5f);
-    if (busy) {
-        const bool empty = !status.lod;
-        const ImVec2 at = empty ? middle - ImVec2(0, ui.px(14))
-                                : ImVec2(area.end().x - ui.px(18), area.position.y + ui.px(18));
-        spinner(ui, at, empty ? ui.px(11) : ui.px(7), colour);
-        const char* const words = status.state == LaneState::Queued ? "Waiting" : "Building";
-        if (empty)
-            drawText(ui,
-                     {middle.x, middle.y + ui.px(8)},
-                     Align::Center,
-                     words,
-                     {nullptr, color::kSecondary});
+    if (status.state == LaneState::Building || status.state == LaneState::Queued) {
+        drawBusy(ui, lane, area);
         state.animate();
-        const float line = ui.px(3);
-        const ImVec2 begin{area.position.x, area.end().y - line};
-        ImDrawList& list = *ImGui::GetWindowDrawList();
-        list.AddRectFilled(begin, area.end(), color::kHairline);
-        list.AddRectFilled(
-            begin,
-            {begin.x + area.size.x * static_cast<float>(status.progress), area.end().y},
-            colour);
     } else if (status.state == LaneState::Failed) {
-        drawText(ui,
-                 {middle.x, middle.y - ui.px(20)},
-                 Align::Center,
-                 "Failed",
-                 {ui.theme.fonts.semibold, color::kError});
-        drawText(ui,
-                 middle,
-                 Align::Center,
-                 fitText(ui, status.failure, area.size.x - ui.px(24)),
-                 {nullptr, color::kSecondary});
-        ImGui::SetCursorScreenPos({middle.x - ui.px(14), middle.y + ui.px(22)});
-        if (linkButton(ui, "Retry", color::kAccent))
-            ui.push(RetryLane{lane.id});
+        drawFailure(ui, lane, area);
     }
     if (draft && status.lod)
-        drawText(ui,
-                 area.position + ImVec2(ui.px(10), ui.px(8)),
-                 Align::Left,
-                 "draft",
-                 {ui.theme.fonts.small, color::kSecondary});
-    if (!status.numbers.note.empty()) {
-        const float y = area.end().y - ui.px(22);
-        drawText(ui,
-                 {area.position.x + ui.px(10), y},
-                 Align::Left,
-                 fitText(ui, status.numbers.note, area.size.x - ui.px(20), ui.theme.fonts.small),
-                 {ui.theme.fonts.small, color::kWarning});
-    }
+        drawOnPlate(ui,
+                    area.position + ImVec2(ui.px(8), ui.px(6)),
+                    Align::Left,
+                    "draft",
+                    {ui.theme.fonts.small, color::kSecondary});
+    if (!status.numbers.note.empty())
+        drawNote(ui, status.numbers.note, area);
+}
+
+namespace {
+
+constexpr float kStill = 4.0f; // design pixels that a click may move
+
+bool hasMoved(const Ui& ui) {
+    const float still = ui.px(kStill);
+    return ImGui::GetIO().MouseDragMaxDistanceSqr[ImGuiMouseButton_Left] >= still * still;
+}
+
+glm::dvec2 placeIn(const Area& area, const ImVec2& point) {
+    return {std::clamp((point.x - area.position.x) / area.size.x, 0.0f, 1.0f),
+            std::clamp((point.y - area.position.y) / area.size.y, 0.0f, 1.0f)};
 }
 
 void pickGesture(const Ui& ui, const PanelInput& input, LaneId lane, const Area& area) {
-    constexpr float kStill = 4.0f; // design pixels
     const ImGuiIO& io = ImGui::GetIO();
-    const float still = ui.px(kStill);
     const bool clicked = ImGui::IsItemDeactivated() &&
                          ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !io.KeyAlt &&
-                         io.MouseDragMaxDistanceSqr[ImGuiMouseButton_Left] < still * still;
+                         !hasMoved(ui);
     if (!clicked || !input.facts.pick || !input.document.scene)
         return;
-    const glm::dvec2 point((io.MousePos.x - area.position.x) / area.size.x,
-                           (io.MousePos.y - area.position.y) / area.size.y);
     const bool adds = io.KeyShift || io.KeyCtrl;
     const bool twice = io.MouseClickedLastCount[ImGuiMouseButton_Left] > 1;
-    std::optional<SelectedItem> item = input.facts.pick(lane, point);
+    std::optional<SelectedItem> item = input.facts.pick(lane, placeIn(area, io.MousePos));
     if (!item) {
         if (!adds)
             ui.push(Select{});
@@ -250,10 +289,41 @@ void pickGesture(const Ui& ui, const PanelInput& input, LaneId lane, const Area&
     ui.push(Select{{*item}, adds && !twice ? Select::Mode::Toggle : Select::Mode::Replace});
 }
 
-void laneGestures(const Ui& ui,
-                  const PanelInput& input,
-                  const WindowState& state,
-                  const Area& area) {
+// Returns whether a box is being dragged.
+bool boxGesture(
+    const Ui& ui, const PanelInput& input, WindowState& state, LaneId lane, const Area& area) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const bool begins = ImGui::IsItemActivated() && ImGui::IsMouseDown(ImGuiMouseButton_Left) &&
+                        io.KeyCtrl && !io.KeyAlt;
+    if (begins)
+        state.box_lane = lane;
+    if (state.box_lane != lane)
+        return false;
+    const bool ends = !ImGui::IsItemActive();
+    if (ends || ui.widgets.drag_cancelled)
+        state.box_lane = kNoLane;
+    if (!hasMoved(ui) || ui.widgets.drag_cancelled)
+        return !ends;
+    const ImVec2& begin = io.MouseClickedPos[ImGuiMouseButton_Left];
+    const ImVec2 min{std::min(begin.x, io.MousePos.x), std::min(begin.y, io.MousePos.y)};
+    const ImVec2 max{std::max(begin.x, io.MousePos.x), std::max(begin.y, io.MousePos.y)};
+    if (ends && input.facts.pickBox) {
+        const auto mode = io.KeyShift ? Select::Mode::Add : Select::Mode::Replace;
+        ui.push(Select{input.facts.pickBox(lane, placeIn(area, min), placeIn(area, max)), mode});
+        return false;
+    }
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.PushClipRect(area.position, area.end(), true);
+    list.AddRectFilled(min, max, (color::kAccent & ~IM_COL32_A_MASK) | IM_COL32(0, 0, 0, 0x30));
+    list.AddRect(min, max, color::kAccent, 0, 0, ui.theme.hairline());
+    list.PopClipRect();
+    return true;
+}
+
+void cameraGestures(const Ui& ui,
+                    const PanelInput& input,
+                    const WindowState& state,
+                    const Area& area) {
     const bool lights = state.drag_moves_light && !ImGui::GetIO().KeyAlt &&
                         ImGui::IsMouseDown(ImGuiMouseButton_Left);
     if (const auto lit = lights ? lightGesture(input.document.view) : std::nullopt)
@@ -264,6 +334,16 @@ void laneGestures(const Ui& ui,
                                                 input.document.view.navigation});
              camera && !lights)
         ui.push(SetCamera{*camera});
+}
+
+} // namespace
+
+void pictureGestures(
+    const Ui& ui, const PanelInput& input, WindowState& state, LaneId lane, const Area& area) {
+    if (!boxGesture(ui, input, state, lane, area)) {
+        cameraGestures(ui, input, state, area);
+        pickGesture(ui, input, lane, area);
+    }
 }
 
 void requestPicture(const PanelInput& input, WindowState& state, LaneId lane, const Area& area) {

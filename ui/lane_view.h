@@ -12,14 +12,12 @@ void drawLaneFooter(const Ui& ui, const Lane& lane, const Area& area);
 // Over the picture: what the lane is busy with, or why it shows nothing.
 void drawLaneState(
     const Ui& ui, WindowState& state, const Lane& lane, bool draft, const Area& area);
-// What the mouse does to camera or light over the last ImGui item, a picture.
-void laneGestures(const Ui& ui,
-                  const PanelInput& input,
-                  const WindowState& state,
-                  const Area& area);
-// A click into the last item, a picture of the lane: selects the instance that is there. Shift or
-// Ctrl adds it or takes it away; a double click selects all instances of its submesh.
-void pickGesture(const Ui& ui, const PanelInput& input, LaneId lane, const Area& area);
+// What the mouse does over the last ImGui item, a picture of the lane. Drags move camera or light;
+// with Ctrl they select what is in a box, with Shift besides what is selected already. A click
+// selects the instance that is there, with Shift or Ctrl it adds it or takes it away; a double
+// click selects all instances of its submesh.
+void pictureGestures(
+    const Ui& ui, const PanelInput& input, WindowState& state, LaneId lane, const Area& area);
 // Asks for the lane's picture in the size of the area.
 void requestPicture(const PanelInput& input, WindowState& state, LaneId lane, const Area& area);
 

@@ -1,7 +1,6 @@
 #include "ui/legend.h"
 
 #include "ui/format.h"
-#include "ui/widgets.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -74,16 +73,24 @@ void drawScale(const Ui& ui, Scale scale, ColorMap map, const Area& area) {
 
 void drawNumber(const Ui& ui, std::string_view text, const Area& area) {
     const ImVec2 min = area.position + ImVec2(ui.px(8), ui.px(6));
-    const ImVec2 size{textWidth(ui, text) + ui.px(12), ui.px(20)};
-    plate(ui, min, min + size);
-    drawText(ui,
-             {min.x + ui.px(6), min.y + (size.y - ImGui::GetTextLineHeight()) * 0.5f},
-             Align::Left,
-             text);
-    ui.record("number", min, min + size, true);
+    const ImVec2 max = drawOnPlate(ui, min, Align::Left, text, {});
+    ui.record("number", min, max, true);
 }
 
 } // namespace
+
+ImVec2 drawOnPlate(const Ui& ui,
+                   const ImVec2& position,
+                   Align align,
+                   std::string_view text,
+                   const TextStyle& style) {
+    const float line = style.font ? style.font->FontSize : ImGui::GetFontSize();
+    const ImVec2 size{textWidth(ui, text, style.font) + ui.px(12), ui.px(20)};
+    const ImVec2 min{position.x - (align == Align::Center ? size.x * 0.5f : 0.0f), position.y};
+    plate(ui, min, min + size);
+    drawText(ui, {min.x + ui.px(6), min.y + (size.y - line) * 0.5f}, Align::Left, text, style);
+    return min + size;
+}
 
 void drawLegend(const Ui& ui, const Document& document, const Lane& lane, const Area& area) {
     const ColorMap map = document.view.colors;
@@ -100,6 +107,9 @@ void drawLegend(const Ui& ui, const Document& document, const Lane& lane, const 
         if (lane.settings.algorithm)
             drawNumber(ui, "99.5 % \u2264 " + formatError(lane.status.error_map.peak) + " %", area);
     }
+    if (document.view.compare == CompareMode::Grid &&
+        document.view.shading == ShadingMode::LodState)
+        drawScale(ui, {"all", "0.1 %", "of its triangles left", "left"}, map, area);
     if (document.view.compare == CompareMode::Difference && lane.settings.algorithm) {
         drawScale(ui, {"same", "1", "FLIP, image difference", "FLIP"}, map, area);
         if (lane.status.flip)

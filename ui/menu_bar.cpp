@@ -152,6 +152,7 @@ void menu(Ui& ui, const char* name, Body body) {
     ui.panel += std::string("/") + name;
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(10), ui.px(7)});
     body();
+    closeOnEscape();
     ImGui::PopStyleVar();
     ui.panel = outer;
     ImGui::EndMenu();

@@ -12,6 +12,12 @@ struct Area {
     ImVec2 end() const { return {position.x + size.x, position.y + size.y}; }
 };
 
+// What the layout depends on besides the size of the window.
+struct LayoutNeeds {
+    bool panels_hidden = false;
+    std::size_t lane_count = 0; // rows of the table, shown where the window is high enough
+};
+
 // Where the parts are at the window's present size.
 struct Layout {
     Area menu;
@@ -23,7 +29,7 @@ struct Layout {
     Area status;
 };
 
-Layout layoutOf(const Theme& theme, const ImVec2& window_size, bool panels_hidden);
+Layout layoutOf(const Theme& theme, const ImVec2& window_size, const LayoutNeeds& needs);
 
 void drawMenuBar(Ui ui, const PanelInput& input, WindowState& state);
 void drawScenePanel(Ui ui, const PanelInput& input, WindowState& state, const Area& area);

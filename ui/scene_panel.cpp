@@ -138,8 +138,21 @@ const std::vector<std::uint32_t>& orderOf(const ScenePtr& scene, SubmeshOrder& o
     return order.submeshes;
 }
 
+// What was selected in a view is scrolled into the list.
+void revealSelection(const Ui& ui, const Document& document, SubmeshOrder& order) {
+    if (document.selection.empty() || document.selection.front() == order.revealed)
+        return;
+    order.revealed = document.selection.front();
+    const auto row = std::ranges::find(order.submeshes, order.revealed.submesh);
+    const float y = ui.px(kRowHeight) * static_cast<float>(row - order.submeshes.begin());
+    const float height = ImGui::GetWindowHeight();
+    if (y < ImGui::GetScrollY() || y + 2 * ui.px(kRowHeight) > ImGui::GetScrollY() + height)
+        ImGui::SetScrollY(std::max(0.0f, y - height * 0.5f));
+}
+
 void drawList(const Ui& ui, const PanelInput& input, SubmeshOrder& order, float width) {
     const std::vector<std::uint32_t>& submeshes = orderOf(input.document.scene, order);
+    revealSelection(ui, input.document, order);
     const std::vector<InstanceRange> ranges = instanceRanges(*input.document.scene);
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
     ImGuiListClipper clipper;
@@ -247,7 +260,7 @@ void drawScenePanel(Ui ui, const PanelInput& input, WindowState& state, const Ar
                                       (count == 1 ? " submesh" : " submeshes")
                                 : std::string("Scene"));
     if (document.scene) {
-        const float selection_height = ui.px(document.selection.empty() ? 72.0f : 112.0f);
+        const float selection_height = ui.px(document.selection.empty() ? 78.0f : 138.0f);
         const float list_top = area.position.y + ui.px(34);
         const float list_height =
             std::min(static_cast<float>(count) * ui.px(kRowHeight),

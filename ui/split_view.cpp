@@ -79,9 +79,12 @@ void drawSplitView(const Ui& ui, const PanelInput& input, WindowState& state, co
                                ImGuiButtonFlags_MouseButtonMiddle);
     ImGui::SetItemAllowOverlap();
     named.record("picture");
-    laneGestures(named, input, state, picture);
-    const float seen_at = (ImGui::GetIO().MousePos.x - picture.position.x) / picture.size.x;
-    pickGesture(named, input, (seen_at < divider ? pair.left : pair.right)->id, picture);
+    const float mouse_x =
+        (state.box_lane == kNoLane ? ImGui::GetIO().MousePos
+                                   : ImGui::GetIO().MouseClickedPos[ImGuiMouseButton_Left])
+            .x;
+    const float seen_at = (mouse_x - picture.position.x) / picture.size.x;
+    pictureGestures(named, input, state, (seen_at < divider ? pair.left : pair.right)->id, picture);
     divider = drawDivider(named, picture, divider);
     const float half = std::round(area.size.x * 0.5f);
     for (const Lane* const lane : {pair.left, pair.right}) {
@@ -125,8 +128,7 @@ void drawFlickerView(const Ui& ui, const PanelInput& input, WindowState& state, 
     ImGui::SetItemAllowOverlap();
     named.record("picture");
     ui.log.object("flicker", "flicker", "\"lane\":" + std::to_string(lane.id));
-    laneGestures(named, input, state, picture);
-    pickGesture(named, input, lane.id, picture);
+    pictureGestures(named, input, state, lane.id, picture);
     const LanePicture* const shown = input.pictureOf(lane.id);
     drawLaneState(named, state, lane, shown && shown->draft, picture);
     named.panel = "View " + std::to_string(lane.id);

@@ -61,6 +61,13 @@ void drawMessage(const Ui& ui, const Document& document, float y, float x, float
     tooltip(ui, text);
 }
 
+// What the next drag or the running animation does; empty: nothing out of the ordinary.
+std::string modeWords(const Document& document, const WindowState& state) {
+    if (const Lane* const lane = document.findLane(state.animation.lane))
+        return "Animating " + std::string(laneName(lane->settings)) + " \u00b7 A stops it";
+    return state.drag_moves_light ? "Left drag moves the light \u00b7 0: the camera" : "";
+}
+
 } // namespace
 
 void drawStatusBar(Ui ui, const PanelInput& input, WindowState& state, const Area& area) {
@@ -87,6 +94,8 @@ void drawStatusBar(Ui ui, const PanelInput& input, WindowState& state, const Are
     if (const JobStatus* const job = shownJob(document)) {
         drawJob(ui, document, *job, y, left);
         state.animate();
+    } else if (const std::string mode = modeWords(document, state); !mode.empty()) {
+        drawText(ui, {left, y}, Align::Left, mode, {nullptr, color::kAccent});
     } else {
         drawMessage(ui, document, y, left, left_end - left);
     }

@@ -84,6 +84,8 @@ bool button(const Ui& ui, std::string_view label, float width = 0.0f);
 // Text that can be clicked.
 bool linkButton(const Ui& ui, std::string_view label, ImU32 colour = color::kText);
 bool toggle(const Ui& ui, std::string_view label, bool& value);
+// Closes the popup that is being drawn, with all of its submenus, once Esc is pressed.
+void closeOnEscape();
 // The chosen item, if another was picked. preview: what the closed box shows.
 std::optional<int>
 combo(const Ui& ui, std::string_view label, std::span<const std::string> items, int selected);

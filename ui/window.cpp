@@ -7,9 +7,10 @@ namespace lodestone::ui {
 namespace {
 
 // The switches that a test cannot read off the document.
-void logState(UiLog& log, const WindowState& state, const DisplayOptions& view) {
+void logState(UiLog& log, const WindowState& state, const Document& document) {
     if (!log.enabled())
         return;
+    const DisplayOptions& view = document.view;
     const std::string members =
         "\"dialog\":" + std::to_string(static_cast<int>(state.dialog)) +
         ",\"welcome\":" + (state.welcome ? "true" : "false") +
@@ -21,7 +22,10 @@ void logState(UiLog& log, const WindowState& state, const DisplayOptions& view) 
         ",\"time_s\":" + std::to_string(view.moment.time_s) +
         ",\"shininess\":" + std::to_string(view.shininess) +
         ",\"error_chart\":" + (state.chart == ChartKind::Error ? "true" : "false") +
-        ",\"shading\":\"" + std::string(shadingName(view.shading)) + "\"";
+        ",\"width\":" + std::to_string(ImGui::GetIO().DisplaySize.x) +
+        ",\"azimuth\":" + std::to_string(document.camera.azimuth_deg) +
+        ",\"light_azimuth\":" + std::to_string(view.light_azimuth_deg) + ",\"shading\":\"" +
+        std::string(shadingName(view.shading)) + "\"";
     log.object("window", "state", members);
 }
 
@@ -42,7 +46,8 @@ void Window::draw(const WindowFacts& facts,
         state_.animate();
     const PanelInput input{session_, document, pictures, facts};
     const Ui ui{theme_, session_.uiLog(), commands, widgets_, {}};
-    const Layout layout = layoutOf(theme_, ImGui::GetIO().DisplaySize, state_.panels_hidden);
+    const Layout layout =
+        layoutOf(theme_, ImGui::GetIO().DisplaySize, {state_.panels_hidden, document.lanes.size()});
     ImGui::PushFont(theme_.fonts.regular);
     handleKeys(ui, input, state_);
     drawMenuBar(ui, input, state_);
@@ -61,7 +66,7 @@ void Window::draw(const WindowFacts& facts,
     if (ImGui::GetIO().WantTextInput)
         state_.wakeIn(0.4); // the caret blinks
     ImGui::PopFont();
-    logState(session_.uiLog(), state_, document.view);
+    logState(session_.uiLog(), state_, document);
 }
 
 void Window::drop(std::span<const std::filesystem::path> files, CommandQueue& commands) {

@@ -35,6 +35,8 @@ struct WindowFacts {
     std::uint64_t frame = 0; // drawn so far
     // What is seen at a point of a lane's view: 0..1 from the left and from the top.
     std::function<std::optional<SelectedItem>(LaneId, const glm::dvec2&)> pick;
+    // All that is between two corners, the upper left one first.
+    std::function<std::vector<SelectedItem>(LaneId, const glm::dvec2&, const glm::dvec2&)> pickBox;
 };
 
 struct PanelInput {
@@ -77,6 +79,7 @@ struct Playback {
 struct SubmeshOrder {
     ScenePtr scene;
     std::vector<std::uint32_t> submeshes;
+    SelectedItem revealed{kNone, kNone}; // the list was scrolled to it
 };
 
 // What a chart shows over the triangles.
@@ -89,6 +92,7 @@ struct WindowState {
     bool welcome = false;
     bool quit = false;             // answered: really
     bool drag_moves_light = false; // a left drag in a view
+    LaneId box_lane = kNoLane;     // in whose view a box is being dragged
     Animation animation;
     Playback playback;
     ChartKind chart = ChartKind::Size;
