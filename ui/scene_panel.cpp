@@ -122,20 +122,19 @@ void drawRow(const Ui& ui,
 }
 
 // Heaviest first: triangles of all instances; equals in the order of the file.
-const std::vector<std::uint32_t>& orderOf(const ScenePtr& scene, SubmeshOrder& order) {
+void updateOrder(const ScenePtr& scene, SubmeshOrder& order) {
     if (order.scene == scene)
-        return order.submeshes;
-    const std::vector<InstanceRange> ranges = instanceRanges(*scene);
-    std::vector<std::uint64_t> weights(ranges.size());
+        return;
+    order.ranges = instanceRanges(*scene);
+    std::vector<std::uint64_t> weights(order.ranges.size());
     order.scene = scene;
-    order.submeshes.resize(ranges.size());
-    for (std::uint32_t at = 0; at < ranges.size(); ++at) {
-        weights[at] = triangleCount(scene->submeshes[at]) * ranges[at].size();
+    order.submeshes.resize(order.ranges.size());
+    for (std::uint32_t at = 0; at < order.ranges.size(); ++at) {
+        weights[at] = triangleCount(scene->submeshes[at]) * order.ranges[at].size();
         order.submeshes[at] = at;
     }
     std::ranges::stable_sort(
         order.submeshes, [&](std::uint32_t a, std::uint32_t b) { return weights[a] > weights[b]; });
-    return order.submeshes;
 }
 
 // What was selected in a view is scrolled into the list.
@@ -151,19 +150,15 @@ void revealSelection(const Ui& ui, const Document& document, SubmeshOrder& order
 }
 
 void drawList(const Ui& ui, const PanelInput& input, SubmeshOrder& order, float width) {
-    const std::vector<std::uint32_t>& submeshes = orderOf(input.document.scene, order);
     revealSelection(ui, input.document, order);
-    const std::vector<InstanceRange> ranges = instanceRanges(*input.document.scene);
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
     ImGuiListClipper clipper;
-    clipper.Begin(static_cast<int>(ranges.size()), ui.px(kRowHeight));
+    clipper.Begin(static_cast<int>(order.submeshes.size()), ui.px(kRowHeight));
     while (clipper.Step())
-        for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row)
-            drawRow(ui,
-                    input,
-                    submeshes[static_cast<std::size_t>(row)],
-                    ranges[submeshes[static_cast<std::size_t>(row)]].size(),
-                    width);
+        for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row) {
+            const std::uint32_t submesh = order.submeshes[static_cast<std::size_t>(row)];
+            drawRow(ui, input, submesh, order.ranges[submesh].size(), width);
+        }
     ImGui::PopStyleVar();
 }
 
@@ -174,9 +169,8 @@ struct SelectionSummary {
     std::uint64_t now = 0;
 };
 
-SelectionSummary summarise(const Document& document) {
+SelectionSummary summarise(const Document& document, std::span<const InstanceRange> ranges) {
     SelectionSummary summary;
-    const std::vector<InstanceRange> ranges = instanceRanges(*document.scene);
     const Lane* const active = document.findLane(document.active_lane);
     for (const SelectedItem& item : document.selection) {
         if (item.submesh >= ranges.size() ||
@@ -222,9 +216,9 @@ void importanceSlider(const Ui& ui, const Document& document, const SelectionSum
         ui.push(EndDrag{});
 }
 
-void drawSelection(const Ui& ui, const PanelInput& input) {
+void drawSelection(const Ui& ui, const PanelInput& input, const SubmeshOrder& order) {
     const Document& document = input.document;
-    const SelectionSummary summary = summarise(document);
+    const SelectionSummary summary = summarise(document, order.ranges);
     sectionTitle(ui, "Selection");
     if (summary.submeshes.empty()) {
         ImGui::PushStyleColor(ImGuiCol_Text, color::kSecondary);
@@ -265,6 +259,7 @@ void drawScenePanel(Ui ui, const PanelInput& input, WindowState& state, const Ar
         const float list_height =
             std::min(static_cast<float>(count) * ui.px(kRowHeight),
                      std::max(ui.px(kRowHeight), area.end().y - list_top - selection_height));
+        updateOrder(document.scene, state.submesh_order);
         ImGui::SetCursorScreenPos({area.position.x, list_top});
         ImGui::BeginChild("list", {area.size.x, list_height});
         drawList(ui, input, state.submesh_order, area.size.x - ui.theme.hairline());
@@ -273,7 +268,7 @@ void drawScenePanel(Ui ui, const PanelInput& input, WindowState& state, const Ar
         const ImVec2 below{area.position.x + ui.px(12), list_top + list_height + ui.px(16)};
         ImGui::SetCursorScreenPos(below);
         ImGui::BeginChild("selection", {area.size.x - ui.px(24), area.end().y - below.y});
-        drawSelection(ui, input);
+        drawSelection(ui, input, state.submesh_order);
         ImGui::EndChild();
     }
     verticalHairline(ui, area.end().x - ui.theme.hairline(), area.position.y, area.end().y);

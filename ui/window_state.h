@@ -75,10 +75,12 @@ struct Playback {
     bool playing = false;
 };
 
-// The scene panel's list: heaviest submeshes first.
+// The scene panel's list: heaviest submeshes first. Made once a scene, for frames do nothing that
+// takes the longer the more instances there are.
 struct SubmeshOrder {
     ScenePtr scene;
     std::vector<std::uint32_t> submeshes;
+    std::vector<InstanceRange> ranges;   // [scene.submeshes]
     SelectedItem revealed{kNone, kNone}; // the list was scrolled to it
 };
 
