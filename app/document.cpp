@@ -33,12 +33,14 @@ void report(Document& document, Severity severity, std::string text) {
     std::uint64_t sequence = 1;
     for (const Message& message : document.messages)
         sequence = std::max(sequence, message.sequence + 1);
-    for (Message& message : document.messages) {
-        if (message.severity == severity && message.text == text) {
-            ++message.count;
-            message.sequence = sequence;
-            return;
-        }
+    const auto same = std::ranges::find_if(document.messages, [&](const Message& message) {
+        return message.severity == severity && message.text == text;
+    });
+    if (same != document.messages.end()) {
+        ++same->count;
+        same->sequence = sequence;
+        std::rotate(same, same + 1, document.messages.end());
+        return;
     }
     if (document.messages.size() >= kMaximumMessages)
         document.messages.erase(document.messages.begin());

@@ -61,7 +61,7 @@ struct Document {
     double view_side_px = 512.0;         // shorter side of a view; filled in by the window
 
     std::vector<JobStatus> jobs;               // refreshed every frame
-    std::vector<Message> messages;             // oldest first
+    std::vector<Message> messages;             // the newest last
     std::vector<std::filesystem::path> recent; // newest first
     std::optional<std::filesystem::path> last_export;
 

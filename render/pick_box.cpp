@@ -38,17 +38,17 @@ std::vector<Highlight> pickBox(const View::Input& input, const PickBox& box) {
             continue;
         const auto& order = item.instances->order;
         const std::uint32_t begin = scene.submeshes[item.submesh].range.begin;
-        const auto instanceAt = [&](std::size_t at) {
+        const auto instance_at = [&](std::size_t at) {
             return order ? (*order)[at] : begin + static_cast<std::uint32_t>(at);
         };
         std::vector<std::uint8_t> is_in(item.kept_instances);
         tbb::parallel_for(std::size_t{0}, is_in.size(), [&](std::size_t at) {
-            const glm::dmat4& transform = scene.scene->instances[instanceAt(at)].transform;
+            const glm::dmat4& transform = scene.scene->instances[instance_at(at)].transform;
             is_in[at] = anyIn(box, *item.geometry->source, clip_from_world * transform) ? 1 : 0;
         });
         for (std::size_t at = 0; at < is_in.size(); ++at)
             if (is_in[at] != 0)
-                picked.push_back({item.submesh, instanceAt(at)});
+                picked.push_back({item.submesh, instance_at(at)});
     }
     const auto place = [](const Highlight& item) { return std::tie(item.submesh, item.instance); };
     std::ranges::sort(picked, {}, place);

@@ -98,7 +98,10 @@ void drawCell(
                 lane,
                 {{area.position.x, area.position.y + header}, {area.size.x, picture_height}});
     drawLaneHeader(named, input, state, lane, {area.position, {area.size.x, header}});
-    drawLaneFooter(named, lane, {{area.position.x, area.end().y - footer}, {area.size.x, footer}});
+    drawLaneFooter(named,
+                   input.document,
+                   lane,
+                   {{area.position.x, area.end().y - footer}, {area.size.x, footer}});
     if (lane.id == input.document.active_lane && input.document.lanes.size() > 1)
         ImGui::GetWindowDrawList()->AddRect(
             area.position, area.end(), color::kAccent, 0, 0, std::max(1.0f, ui.px(1.5f)));

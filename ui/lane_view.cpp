@@ -45,6 +45,34 @@ void laneMenu(const Ui& ui, const PanelInput& input, WindowState& state, const L
 
 } // namespace
 
+namespace {
+
+// At the right: the measured distances to the original, as much as has room. Returns where they
+// begin.
+float drawDistance(const Ui& ui, const Lane& lane, const Area& area) {
+    const float end = area.end().x - ui.px(6);
+    if (!lane.status.distance || !lane.settings.algorithm)
+        return end;
+    const std::string hausdorff = formatError(lane.status.distance->hausdorff);
+    const std::string mean = formatError(lane.status.distance->mean);
+    ImFont* const small = ui.theme.fonts.small;
+    for (const std::string& words :
+         {"Hausdorff " + hausdorff + " %, mean " + mean + " %", hausdorff + " / " + mean + " %"}) {
+        const float width = textWidth(ui, words, small);
+        if (width > area.size.x * 0.7f)
+            continue;
+        drawText(ui,
+                 {end - width, area.position.y + ui.px(2)},
+                 Align::Left,
+                 words,
+                 {small, color::kText});
+        return end - width - ui.px(8);
+    }
+    return end;
+}
+
+} // namespace
+
 void drawLaneHeader(
     const Ui& ui, const PanelInput& input, WindowState& state, const Lane& lane, const Area& area) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -59,10 +87,11 @@ void drawLaneHeader(
     x += textWidth(ui, name, ui.theme.fonts.semibold) + ui.px(8);
     const float menu_width = ui.px(26);
     const float menu_x = area.end().x - menu_width - ui.px(4);
+    const float summary_end = drawDistance(ui, lane, {{x, text_y}, {menu_x - x, 0}});
     drawText(ui,
              {x, text_y},
              Align::Left,
-             fitText(ui, laneSummary(input.document, lane), std::max(0.0f, menu_x - x)),
+             fitText(ui, laneSummary(input.document, lane), std::max(0.0f, summary_end - x)),
              {nullptr, color::kSecondary});
     ImGui::SetCursorScreenPos({menu_x, area.position.y + ui.px(2)});
     if (ImGui::InvisibleButton("menu", {menu_width, area.size.y - ui.px(4)}))
@@ -92,14 +121,15 @@ struct FooterWords {
     std::string rate;
 };
 
-FooterWords footerWords(const Lane& lane) {
+FooterWords footerWords(const Document& document, const Lane& lane) {
     const LaneNumbers& numbers = lane.status.numbers;
     FooterWords words;
     if (!lane.status.lod)
         return words;
     words.triangles = formatCount(numbers.triangles);
     words.ratio = formatRatio(numbers.ratio);
-    words.size = formatBytes(numbers.predicted_bytes);
+    const bool estimated = isEstimated(document.export_options);
+    words.size = (estimated ? "~" : "") + formatBytes(numbers.predicted_bytes);
     if (lane.status.frame_ms > 0.0) {
         words.time = formatMilliseconds(lane.status.frame_ms);
         words.rate = formatRate(framesPerSecond(lane));
@@ -110,12 +140,12 @@ FooterWords footerWords(const Lane& lane) {
 } // namespace
 
 // Left: triangles and ratio; middle: size; right: time and rate. What does not fit is left out.
-void drawLaneFooter(const Ui& ui, const Lane& lane, const Area& area) {
+void drawLaneFooter(const Ui& ui, const Document& document, const Lane& lane, const Area& area) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(area.position, area.end(), color::kPanel);
     const float y = area.position.y + (area.size.y - ImGui::GetTextLineHeight()) * 0.5f;
     const float inner = area.size.x - ui.px(20);
-    FooterWords words = footerWords(lane);
+    FooterWords words = footerWords(document, lane);
     if (words.triangles.empty())
         return;
     ImFont* const bold = ui.theme.fonts.semibold;

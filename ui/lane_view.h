@@ -4,11 +4,11 @@
 
 namespace lodestone::ui {
 
-// Name, what sets the lane apart, and its menu.
+// Name, what sets the lane apart, its distances if they are measured, and its menu.
 void drawLaneHeader(
     const Ui& ui, const PanelInput& input, WindowState& state, const Lane& lane, const Area& area);
 // Triangles and ratio, size, time and rate. What does not fit is shortened, then left out.
-void drawLaneFooter(const Ui& ui, const Lane& lane, const Area& area);
+void drawLaneFooter(const Ui& ui, const Document& document, const Lane& lane, const Area& area);
 // Over the picture: what the lane is busy with, or why it shows nothing.
 void drawLaneState(
     const Ui& ui, WindowState& state, const Lane& lane, bool draft, const Area& area);

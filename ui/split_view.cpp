@@ -100,7 +100,7 @@ void drawSplitView(const Ui& ui, const PanelInput& input, WindowState& state, co
                       shown && shown->draft,
                       {{x, picture.position.y}, {width, picture.size.y}});
         drawLaneHeader(named, input, state, *lane, {{x, area.position.y}, {width, bar}});
-        drawLaneFooter(named, *lane, {{x, picture.end().y}, {width, bar}});
+        drawLaneFooter(named, input.document, *lane, {{x, picture.end().y}, {width, bar}});
         ImGui::PopID();
         requestPicture(input, state, lane->id, picture);
     }
@@ -134,7 +134,8 @@ void drawFlickerView(const Ui& ui, const PanelInput& input, WindowState& state, 
     named.panel = "View " + std::to_string(lane.id);
     ImGui::PushID(static_cast<int>(lane.id));
     drawLaneHeader(named, input, state, lane, {area.position, {area.size.x, bar}});
-    drawLaneFooter(named, lane, {{area.position.x, picture.end().y}, {area.size.x, bar}});
+    drawLaneFooter(
+        named, input.document, lane, {{area.position.x, picture.end().y}, {area.size.x, bar}});
     ImGui::PopID();
     requestPicture(input, state, pair.left->id, picture);
     requestPicture(input, state, pair.right->id, picture);

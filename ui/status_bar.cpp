@@ -44,21 +44,68 @@ void drawJob(const Ui& ui, const Document& document, const JobStatus& job, float
         ui.push(CancelJob{job.id});
 }
 
+ImU32 inkOf(Severity severity) {
+    return severity == Severity::Error     ? color::kError
+           : severity == Severity::Warning ? color::kWarning
+                                           : color::kSecondary;
+}
+
+std::string wordsOf(const Message& message) {
+    return message.count > 1 ? message.text + " (\u00d7 " + std::to_string(message.count) + ")"
+                             : message.text;
+}
+
+// Every message, the worst and then newest first.
+void messageList(Ui ui, const Document& document) {
+    ui.panel = "Messages";
+    std::vector<const Message*> ranked;
+    for (const Message& message : document.messages)
+        ranked.push_back(&message);
+    std::ranges::sort(ranked, std::ranges::greater(), [](const Message* message) {
+        return std::pair(message->severity, message->sequence);
+    });
+    const float width = ui.px(560);
+    const float rows = std::min(10.0f, static_cast<float>(ranked.size()));
+    ImGui::BeginChild("list", {width, rows * ui.px(22)});
+    for (const Message* const message : ranked) {
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        ImGui::GetWindowDrawList()->AddCircleFilled(
+            at + ImVec2(ui.px(4), ui.px(8)), ui.px(4), inkOf(message->severity), 20);
+        const std::string words = wordsOf(*message);
+        drawText(ui, at + ImVec2(ui.px(16), 0), Align::Left, fitText(ui, words, width - ui.px(32)));
+        ImGui::Dummy({width - ui.px(16), ui.px(16)});
+        tooltip(ui, words);
+    }
+    ImGui::EndChild();
+    if (linkButton(ui, "Clear", color::kAccent)) {
+        ui.push(ClearMessages{});
+        ImGui::CloseCurrentPopup();
+    }
+    closeOnEscape();
+}
+
+// The worst message; a click lists all.
 void drawMessage(const Ui& ui, const Document& document, float y, float x, float width) {
-    if (document.messages.empty())
+    const Message* const message = topMessage(document);
+    if (!message)
         return;
-    const Message& message = document.messages.back();
-    const ImU32 ink = message.severity == Severity::Error     ? color::kError
-                      : message.severity == Severity::Warning ? color::kWarning
-                                                              : color::kSecondary;
-    std::string text = message.text;
-    if (message.count > 1)
-        text += " (\u00d7 " + std::to_string(message.count) + ")";
-    drawText(ui, {x, y}, Align::Left, fitText(ui, text, width), {nullptr, ink});
+    std::string text = wordsOf(*message);
+    if (document.messages.size() > 1)
+        text += " \u00b7 " + std::to_string(document.messages.size() - 1) + " more";
+    drawText(
+        ui, {x, y}, Align::Left, fitText(ui, text, width), {nullptr, inkOf(message->severity)});
     ImGui::SetCursorScreenPos({x, y});
-    ImGui::InvisibleButton("message", {std::max(1.0f, width), ImGui::GetTextLineHeight()});
+    if (ImGui::InvisibleButton("message", {std::max(1.0f, width), ImGui::GetTextLineHeight()}))
+        ImGui::OpenPopup("messages");
     ui.record("message");
-    tooltip(ui, text);
+    tooltip(ui, text + "\nClick for all messages.");
+    ImGui::SetNextWindowPos({x, y - ui.px(8)}, ImGuiCond_Always, {0, 1});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(12), ui.px(10)});
+    if (ImGui::BeginPopup("messages")) {
+        messageList(ui, document);
+        ImGui::EndPopup();
+    }
+    ImGui::PopStyleVar();
 }
 
 // What the next drag or the running animation does; empty: nothing out of the ordinary.

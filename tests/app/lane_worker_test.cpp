@@ -80,7 +80,7 @@ TEST_F(LaneWorkerTest, ALaneThatSlidesShowsWhatIsBetweenLodsAndTheTargetsOwnAfte
     document.lanes.clear();
     const LaneId id = addFakeLane(*ias);
     settle();
-    const auto positionAt = [&](double ratio) {
+    const auto position_at = [&](double ratio) {
         return lane(id)
             .status.source->resolve({Target::Kind::Ratio, ratio}, ByteModel(document.scene, {}))
             .position;
@@ -88,7 +88,7 @@ TEST_F(LaneWorkerTest, ALaneThatSlidesShowsWhatIsBetweenLodsAndTheTargetsOwnAfte
     for (const double ratio : {0.7, 0.69}) {
         applyCommand(document, SlideLane{id, ratio, 7});
         frame();
-        EXPECT_LT(lane(id).status.lod->position, positionAt(ratio)) << "the finer LOD's";
+        EXPECT_LT(lane(id).status.lod->position, position_at(ratio)) << "the finer LOD's";
     }
     const auto slid = lane(id).status.lod;
     frame();
@@ -96,7 +96,7 @@ TEST_F(LaneWorkerTest, ALaneThatSlidesShowsWhatIsBetweenLodsAndTheTargetsOwnAfte
     applyCommand(document, EndDrag{});
     frame();
     EXPECT_NE(lane(id).status.lod, slid);
-    EXPECT_EQ(lane(id).status.lod->position, positionAt(0.69));
+    EXPECT_EQ(lane(id).status.lod->position, position_at(0.69));
     applyCommand(document, Undo{});
     EXPECT_FALSE(document.history.canUndo()) << "the whole way is one step";
 }

@@ -172,6 +172,16 @@ def test_escape_closes_a_menu_and_nothing_else(folder):
         assert window.state()["dialog"] == 0, "it asked whether to quit"
 
 
+def test_messages_are_listed_counted_and_cleared(folder):
+    with Window(base.BINARY, [f"{folder}/nowhere.glb"]) as window:
+        window.wait("an error", lambda: any(m["severity"] == "error" for m in window.messages))
+        window.click("Status/message")
+        window.wait("the list", lambda: window.get("widget", "Messages/Clear"))
+        window.click("Messages/Clear")
+        window.click("Menu/File")  # nothing in its way
+        window.wait("the menu", lambda: window.get("widget", "Menu/File/Quit"))
+
+
 def test_a_missed_target_is_marked_in_the_view(folder):
     with open_chair(folder) as window:
         window.drag(f"Lane {window.lane_id('ias')}/Target", (0.45, 0.5), (0.0, 0.5))
