@@ -26,8 +26,8 @@ public:
         ViewSize size;
         std::vector<Highlight> highlighted; // in its scene
         // Set: highlighted are those of this LOD of another scene (see View::Input).
-        ScenePtr marked_scene;
-        std::shared_ptr<const Lod> marked_lod; // set as marked_scene is; one in all lanes
+        ScenePtr marked_scene = nullptr;
+        std::shared_ptr<const Lod> marked_lod = nullptr; // set as marked_scene is; one in all lanes
     };
 
     struct Picture {

@@ -55,9 +55,11 @@ float drawDistance(const Ui& ui, const Lane& lane, const Area& area) {
         return end;
     const std::string hausdorff = formatError(lane.status.distance->hausdorff);
     const std::string mean = formatError(lane.status.distance->mean);
+    const std::string both = hausdorff + " / " + mean + " %";
+    std::string named = "Hausdorff ";
+    named.append(hausdorff).append(" %, mean ").append(mean).append(" %");
     ImFont* const small = ui.theme.fonts.small;
-    for (const std::string& words :
-         {"Hausdorff " + hausdorff + " %, mean " + mean + " %", hausdorff + " / " + mean + " %"}) {
+    for (const std::string& words : {named, both}) {
         const float width = textWidth(ui, words, small);
         if (width > area.size.x * 0.7f)
             continue;

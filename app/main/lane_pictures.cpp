@@ -45,9 +45,7 @@ std::vector<ViewSet::Wanted> LanePictures::wantedPictures(const Document& docume
                           heat && status.error_map.lod ? status.error_map.lod : status.lod,
                           drafted ? drafts_.draftOf(document, *lane) : nullptr,
                           {sized.width_px, sized.height_px},
-                          {},
-                          nullptr,
-                          nullptr});
+                          {}});
         if (differences || highlighted.empty() || !status.scene)
             continue;
         wanted.back().highlighted = highlighted;
@@ -74,14 +72,8 @@ void LanePictures::addReference(const Document& document, std::vector<ViewSet::W
     for (const ViewSet::Wanted& lane : wanted)
         if (!document.findLane(lane.key)->settings.algorithm)
             return;
-    wanted.push_back({kNoLane,
-                      document.scene,
-                      fullOriginal(document),
-                      nullptr,
-                      wanted.front().size,
-                      {},
-                      nullptr,
-                      nullptr});
+    wanted.push_back(
+        {kNoLane, document.scene, fullOriginal(document), nullptr, wanted.front().size, {}});
 }
 
 bool LanePictures::draw(Session& session, std::span<const ui::ViewRequest> views) {

@@ -94,7 +94,7 @@ def test_f11_fills_the_screen_and_leaves_it(folder):
 
 def test_a_drag_with_ctrl_selects_what_is_in_the_box(folder):
     with open_chair(folder) as window:
-        name = view(window, "ias")
+        name = view(window, "original")
         before = pictures_of(window)
 
         def box(begin, end, *modifiers):
