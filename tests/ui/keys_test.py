@@ -5,6 +5,7 @@ usage: keys_test.py BINARY [NAME...]      as window_test.py
 """
 import os
 import sys
+import time
 
 import window_test as base
 from views_test import compare, view
@@ -209,6 +210,24 @@ def test_frames_stay_short_while_a_large_sequence_is_built(_):
         print(f"        {frames} frames, {slow} above 100 ms, worst {worst} ms, load {load:.1f}")
         if frames and load < QUIET_LOAD:
             assert slow <= max(1, 0.01 * frames)
+
+
+def test_the_first_picture_is_soon_there(_):
+    """Reports; a rule on a quiet machine only."""
+    begin = time.monotonic()
+    with Window(base.BINARY) as window:
+        window.wait("a picture", lambda: window.get("pictures", "pictures") and
+                    window.lane("original") and window.lane("original")["state"] == "ready")
+        first = time.monotonic() - begin
+        window.wait_ready("ias")
+        ias = time.monotonic() - begin
+        window.wait_ready("quadric")
+        quadric = time.monotonic() - begin
+        load = os.getloadavg()[0]
+        print(f"        original {first:.2f} s, IAS {ias:.2f} s, Quadric {quadric:.2f} s after the "
+              f"start, load {load:.1f}")
+        if load < QUIET_LOAD:
+            assert first < 1.5 and quadric < 5.0
 
 
 def test_difference_and_heat_map_can_be_left_with_a_key(folder):
