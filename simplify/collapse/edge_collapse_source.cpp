@@ -1,5 +1,6 @@
 #include "simplify/collapse/edge_collapse_source.h"
 
+#include "simplify/collapse/read_ends.h"
 #include "simplify/collapse/seam_count.h"
 #include "simplify/geomorph.h"
 

@@ -1,5 +1,5 @@
 // From a sequence and a step to meshes.
-#include "simplify/collapse/sequence.h"
+#include "simplify/collapse/read_ends.h"
 
 #include <algorithm>
 #include <cstring>

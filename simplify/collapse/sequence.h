@@ -81,27 +81,14 @@ std::uint32_t floorStep(const CollapseSequence& sequence,
                         std::uint32_t instance_count,
                         const FloorOptions& floors);
 
-// Geometry of a submesh at a step (0: as in the file, without what was cleaned away), [primitives];
-// primitives that are no triangle lists are the submesh's own. Vertices are scaled by `scale` about
-// `pivot`. Parallel where large. O(faces + wedges). Any thread.
+// Geometry of a submesh at a step >= 1, [primitives]; primitives that are no triangle lists are the
+// submesh's own. Vertices are scaled by `scale` about `pivot`. Parallel where large.
+// O(faces + wedges). Any thread.
 std::vector<GeometryPtr> readOutSubmesh(const CollapseSequence& sequence,
                                         const Submesh& submesh,
                                         std::uint32_t step,
                                         double scale,
                                         const glm::dvec3& pivot);
-
-struct StepRange {
-    std::uint32_t fine = 0;
-    std::uint32_t coarse = 0; // >= fine
-};
-
-// Where the vertices of readOutSubmesh() at the fine step are at the coarse one, [primitives]: in
-// the same order, without indices and morph targets, scaled as said. Cost and threads as there.
-std::vector<GeometryPtr> readOutEnds(const CollapseSequence& sequence,
-                                     const Submesh& submesh,
-                                     const StepRange& steps,
-                                     double scale,
-                                     const glm::dvec3& pivot);
 
 // Position of a wedge that is alive at a step.
 glm::vec3 wedgePosition(const CollapseSequence& sequence,
