@@ -66,9 +66,9 @@ struct RowColumns {
 RowColumns rowColumns(const Ui& ui, float left, float width) {
     const float right = left + width;
     return {left + ui.px(12),
-            left + ui.px(99),
-            left + ui.px(142),
-            left + ui.px(148),
+            left + ui.px(116),
+            left + ui.px(158),
+            left + ui.px(163),
             right - ui.px(16)};
 }
 
