@@ -89,7 +89,8 @@ private:
     void beginPicture(const View::Input& input);
     Result<DrawTotals> drawSlices(const View::Input& input, DrawCursor& cursor, double budget_ms);
     void endPicture(const View::Input& input);
-    Result<DrawReport> drawBudgeted(const View::Input& input, PictureKey key, double budget_ms);
+    Result<DrawReport>
+    drawBudgeted(const View::Input& input, const PictureKey& key, double budget_ms);
     void beginTimer();
     void endTimer();
     void collectTimers();
@@ -289,7 +290,7 @@ void ViewState::collectTimers() {
 }
 
 Result<DrawReport>
-ViewState::drawBudgeted(const View::Input& input, PictureKey key, double budget_ms) {
+ViewState::drawBudgeted(const View::Input& input, const PictureKey& key, double budget_ms) {
     const Clock::time_point begun = Clock::now();
     if (!sliced_ || !(sliced_->key == key)) {
         sliced_.reset();
@@ -329,7 +330,7 @@ ViewState::drawBudgeted(const View::Input& input, PictureKey key, double budget_
 
 Result<DrawReport> ViewState::draw(const View::Input& input, double budget_ms) {
     collectTimers();
-    PictureKey key = keyOf(input);
+    const PictureKey key = keyOf(input);
     last_.drew = false;
     last_.complete = true;
     if (key_ && *key_ == key)

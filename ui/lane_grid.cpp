@@ -125,9 +125,10 @@ void drawFreeCell(const Ui& ui, const Area& area) {
         std::max(margin, (area.size.y - line * static_cast<float>(in_column + 1)) * 0.5f);
     drawText(ui, {left, top}, Align::Left, "Add a lane", {nullptr, color::kSecondary});
     for (std::size_t at = 0; at < all.size(); ++at) {
-        const auto column = static_cast<float>(at / in_column);
-        const auto row = static_cast<float>(at % in_column + 1);
-        const ImVec2 place{left + width * column, top + line * row};
+        const std::size_t column = at / in_column;
+        const std::size_t row = at % in_column + 1;
+        const ImVec2 place{left + width * static_cast<float>(column),
+                           top + line * static_cast<float>(row)};
         ImGui::GetWindowDrawList()->AddCircleFilled(
             place + ImVec2(ui.px(4), ui.px(8)), ui.px(4), packed(laneColour(&all[at], 0)), 24);
         ImGui::SetCursorScreenPos(place + ImVec2(ui.px(16), 0));

@@ -33,7 +33,8 @@ std::vector<Triangle> trianglesOf(const Geometry& geometry,
         }
         if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0])
             continue;
-        std::ranges::rotate(corners, std::ranges::min_element(corners));
+        std::rotate(
+            corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
         triangles.push_back(corners);
     }
     std::ranges::sort(triangles);
