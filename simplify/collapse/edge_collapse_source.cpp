@@ -54,7 +54,7 @@ public:
         return other;
     }
 
-    std::vector<std::string> notes() const override { return {}; }
+    std::vector<std::string> notes() const override { return set_->notes; }
 
     bool transfersTextures() const override { return set_->bake.has_value(); }
 
@@ -294,6 +294,7 @@ Result<LodSourcePtr> prepareEdgeCollapse(ScenePtr scene,
     auto set = std::make_shared<SequenceSet>();
     set->scene = std::move(scene);
     set->bake = options.bake;
+    set->notes = options.notes;
     set->ranges = instanceRanges(*set->scene);
     const Bounds bounds = robustWorldBounds(*set->scene);
     set->diagonal = bounds.diagonal() > 0.0 ? bounds.diagonal() : 1.0;

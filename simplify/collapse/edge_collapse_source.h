@@ -13,6 +13,7 @@ struct EdgeCollapseOptions {
     bool remove_instances = true;    // below the floors
     bool remove_by_paper = false;    // of crowds only, once nothing is left to collapse
     std::optional<BakeOptions> bake; // LODs that are written get textures of their own
+    std::vector<std::string> notes;  // of the source, for the user
 };
 
 // Sequences for every submesh of the scene, then a schedule: what all edge-collapse methods share.

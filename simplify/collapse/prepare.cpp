@@ -12,10 +12,22 @@ expandInput(const Scene& scene, const ScheduleOptions& schedule, const JobContex
     return CollapseInput{std::move(*expanded), {schedule.ordering, {}, {}}};
 }
 
-bool hasFewInstances(const Scene& scene) {
-    constexpr double kFew = 1.75; // instances a submesh (Azim et al. 2015)
+Result<LodSourcePtr> prepareExpanded(const Scene& scene,
+                                     EdgeCollapseOptions options,
+                                     const ScheduleOptions& schedule,
+                                     const JobContext& job) {
+    options.remove_instances = false;
+    const Result<CollapseInput> input = expandInput(scene, schedule, job);
+    if (!input)
+        return tl::unexpected(input.error());
+    return prepareEdgeCollapse(input->scene, options, input->schedule, job);
+}
+
+double instancesPerSubmesh(const Scene& scene) {
     const SceneCounts counts = countScene(scene);
-    return static_cast<double>(counts.instances) < kFew * static_cast<double>(counts.submeshes);
+    return counts.submeshes == 0
+               ? 0.0
+               : static_cast<double>(counts.instances) / static_cast<double>(counts.submeshes);
 }
 
 } // namespace lodestone

@@ -16,25 +16,16 @@ struct CollapseInput {
 Result<CollapseInput>
 expandInput(const Scene& scene, const ScheduleOptions& schedule, const JobContext& job);
 
-// Whether a scene has so few instances a submesh that the IAS paper expands it.
-bool hasFewInstances(const Scene& scene);
+// Collapses the de-instanced scene as one. Errors: Cancelled. Any thread.
+Result<LodSourcePtr> prepareExpanded(const Scene& scene,
+                                     EdgeCollapseOptions options,
+                                     const ScheduleOptions& schedule,
+                                     const JobContext& job);
 
-enum class Weighing : std::uint8_t {
-    ByInstances, // an error counts as often and as large as it is seen
-    Alone,       // every submesh as if it stood there once
-};
+// 0 for a scene without submeshes.
+double instancesPerSubmesh(const Scene& scene);
 
-// Algorithm::prepare of rows that collapse the scene's own submeshes.
-template <Algorithm (*row)(), Weighing weighing>
-Result<LodSourcePtr> prepareSubmeshes(const ScenePtr& scene,
-                                      const ParameterValues& values,
-                                      const ScheduleOptions& schedule,
-                                      const JobContext& job) {
-    Result<EdgeCollapseOptions> options = readCollapseParameters(row(), values);
-    if (!options)
-        return tl::unexpected(options.error());
-    options->weigh_instances = weighing == Weighing::ByInstances;
-    return prepareEdgeCollapse(scene, *options, schedule, job);
-}
+// Below so many instances a submesh the paper expands a scene (Azim et al. 2015).
+inline constexpr double kFewInstances = 1.75;
 
 } // namespace lodestone

@@ -16,6 +16,7 @@ struct SequenceSet {
     std::vector<double> max_stretch;         // [submeshes] of its instances
     double diagonal = 1.0;                   // robust, world
     std::optional<BakeOptions> bake;         // none: LODs keep their textures
+    std::vector<std::string> notes;          // for the user
 };
 
 // The state of one submesh at a position.

@@ -10,14 +10,21 @@ Result<LodSourcePtr> prepareQuadric(const ScenePtr& scene,
                                     const ParameterValues& values,
                                     const ScheduleOptions& schedule,
                                     const JobContext& job) {
-    Result<EdgeCollapseOptions> options = readCollapseParameters(quadricAlgorithm(), values);
+    const Result<EdgeCollapseOptions> options = readCollapseParameters(quadricAlgorithm(), values);
     if (!options)
         return tl::unexpected(options.error());
-    options->remove_instances = false;
-    const Result<CollapseInput> input = expandInput(*scene, schedule, job);
-    if (!input)
-        return tl::unexpected(input.error());
-    return prepareEdgeCollapse(input->scene, *options, input->schedule, job);
+    return prepareExpanded(*scene, *options, schedule, job);
+}
+
+Result<LodSourcePtr> prepareQuadricSubmesh(const ScenePtr& scene,
+                                           const ParameterValues& values,
+                                           const ScheduleOptions& schedule,
+                                           const JobContext& job) {
+    Result<EdgeCollapseOptions> options = readCollapseParameters(quadricSubmeshAlgorithm(), values);
+    if (!options)
+        return tl::unexpected(options.error());
+    options->weigh_instances = false;
+    return prepareEdgeCollapse(scene, *options, schedule, job);
 }
 
 } // namespace
@@ -47,7 +54,7 @@ Algorithm quadricSubmeshAlgorithm() {
     row.parameters = collapseParameters();
     row.parameters.push_back(removalParameter());
     row.parameters.push_back(removalRuleParameter());
-    row.prepare = prepareSubmeshes<quadricSubmeshAlgorithm, Weighing::Alone>;
+    row.prepare = prepareQuadricSubmesh;
     return row;
 }
 

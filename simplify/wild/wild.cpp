@@ -67,7 +67,8 @@ private:
 enum class Scope : std::uint8_t { Auto, Submesh, Expanded };
 
 bool expands(const Scene& scene, Scope scope) {
-    return scope == Scope::Auto ? hasFewInstances(scene) : scope == Scope::Expanded;
+    return scope == Scope::Auto ? instancesPerSubmesh(scene) < kFewInstances
+                                : scope == Scope::Expanded;
 }
 
 Result<LodSourcePtr> prepareWild(const ScenePtr& scene,
