@@ -1,8 +1,9 @@
 // lodestone_bench: every promised figure, peers beside us, the six point-cloud methods, Wild, and
-// the micro-benchmarks, as Markdown.
+// the micro-benchmarks, as Markdown; or the study of instance-aware simplification.
 #include "bench/bench_run.h"
 #include "bench/program_main.h"
 #include "bench/rows.h"
+#include "bench/study/study.h"
 
 #include <CLI/CLI.hpp>
 
@@ -55,7 +56,22 @@ int parseAndRun(int argc, char** argv) {
     addWhereTo(app, options);
     addWhat(app, options);
     app.add_flag("--memory-child", memory_child)->group(""); // how it starts itself
+    bool study = false;
+    StudyRun study_run;
+    app.add_flag("--study",
+                 study,
+                 "nothing but the instance-aware paper's evaluation: study.csv, .json and .html in "
+                 "the folder --out");
+    app.add_option("--made", study_run.made, "made scenes of the study")
+        ->check(CLI::Range(0, 10'000))
+        ->capture_default_str();
     CLI11_PARSE(app, argc, argv);
+    if (study) {
+        study_run.folder = options.out.empty() ? "." : options.out;
+        study_run.models = options.models;
+        study_run.rounds = options.quick ? 1 : study_run.rounds;
+        return runStudy(study_run);
+    }
     return memory_child ? runMemoryChild() : runBench(options);
 }
 

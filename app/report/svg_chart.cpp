@@ -22,38 +22,63 @@ constexpr double kRight = 12.0;
 constexpr double kTop = 12.0;
 constexpr double kBottom = 48.0;
 
-bool drawable(const ChartPoint& point) {
-    return std::isfinite(point.x) && std::isfinite(point.y) && point.x > 0.0 && point.y > 0.0;
+bool drawable(double value, ChartScale scale) {
+    return std::isfinite(value) && (scale == ChartScale::Linear || value > 0.0);
 }
 
-// A logarithmic axis that fills pixels first..last.
-class LogScale {
+bool drawable(const Chart& chart, const ChartPoint& point) {
+    return drawable(point.x, chart.x.scale) && drawable(point.y, chart.y.scale);
+}
+
+// An axis that fills pixels first..last. Its own coordinates are values or their logarithms.
+class AxisScale {
 public:
-    LogScale(double first_px, double last_px) : first_px_(first_px), last_px_(last_px) {}
+    AxisScale(ChartScale scale, double first_px, double last_px)
+        : scale_(scale), first_px_(first_px), last_px_(last_px) {}
 
     void add(double value) {
-        low_ = std::min(low_, value);
-        high_ = std::max(high_, value);
+        low_ = std::min(low_, onAxis(value));
+        high_ = std::max(high_, onAxis(value));
     }
 
     void finish() {
         constexpr double kPadding = 0.05; // of the length
         constexpr double kShortest = 0.1; // decades
-        const double middle = 0.5 * (std::log10(low_) + std::log10(high_));
-        const double half = std::max(0.5 * (std::log10(high_) - std::log10(low_)), kShortest) *
-                            (1.0 + 2 * kPadding);
-        log_low_ = middle - half;
-        log_high_ = middle + half;
+        const double middle = 0.5 * (low_ + high_);
+        const double half = std::max(0.5 * (high_ - low_), kShortest) * (1.0 + 2 * kPadding);
+        low_ = middle - half;
+        high_ = middle + half;
     }
 
     double px(double value) const {
-        const double share = (std::log10(value) - log_low_) / (log_high_ - log_low_);
+        const double share = (onAxis(value) - low_) / (high_ - low_);
         return first_px_ + share * (last_px_ - first_px_);
     }
 
     // Round values, as many as fit without crowding.
     std::vector<double> ticks() const {
-        constexpr std::size_t kMost = 8;
+        return scale_ == ChartScale::Linear ? evenTicks() : decadeTicks();
+    }
+
+private:
+    static constexpr std::size_t kMostTicks = 8;
+
+    double onAxis(double value) const {
+        return scale_ == ChartScale::Linear ? value : std::log10(value);
+    }
+
+    std::vector<double> evenTicks() const {
+        double step = std::pow(10.0, std::floor(std::log10(high_ - low_)) - 1.0);
+        for (const double factor : {2.0, 2.5, 2.0, 2.0, 2.5})
+            if ((high_ - low_) / step > kMostTicks)
+                step *= factor;
+        std::vector<double> found;
+        for (double count = std::ceil(low_ / step); count * step <= high_; count += 1.0)
+            found.push_back(count * step);
+        return found;
+    }
+
+    std::vector<double> decadeTicks() const {
         static constexpr std::array<int, 9> kOnes = {10, 20, 30, 40, 50, 60, 70, 80, 90};
         static constexpr std::array<int, 3> kFew = {10, 20, 50};
         std::array<int, 90> tenths{};
@@ -61,32 +86,36 @@ public:
         for (const std::span<const int> digits : {std::span<const int>(tenths),
                                                   std::span<const int>(kOnes),
                                                   std::span<const int>(kFew)})
-            if (std::vector<double> found = ticksOf(digits); found.size() <= kMost)
+            if (std::vector<double> found = ticksOf(digits); found.size() <= kMostTicks)
                 return found;
         return ticksOf(std::span(kFew).first(1));
     }
 
-private:
     // tenths: of the ticks within every decade, 10..99.
     std::vector<double> ticksOf(std::span<const int> tenths) const {
         std::vector<double> found;
-        const int first = static_cast<int>(std::floor(log_low_));
-        const int last = static_cast<int>(std::ceil(log_high_));
+        const int first = static_cast<int>(std::floor(low_));
+        const int last = static_cast<int>(std::ceil(high_));
         for (int decade = first; decade <= last; ++decade)
             for (const int tenth : tenths) {
                 const double value = 0.1 * tenth * std::pow(10.0, decade);
-                if (std::log10(value) >= log_low_ && std::log10(value) <= log_high_)
+                if (std::log10(value) >= low_ && std::log10(value) <= high_)
                     found.push_back(value);
             }
         return found;
     }
 
+    ChartScale scale_;
     double first_px_;
     double last_px_;
     double low_ = std::numeric_limits<double>::max();
-    double high_ = 0.0;
-    double log_low_ = 0.0;
-    double log_high_ = 1.0;
+    double high_ = std::numeric_limits<double>::lowest();
+};
+
+// The area that the series share.
+struct Plot {
+    AxisScale x;
+    AxisScale y;
 };
 
 std::string tickText(double value, ChartUnit unit) {
@@ -121,24 +150,26 @@ std::string marker(const ChartSeries& series, const ChartPoint& point, double x,
                        escaped(series.name + "\n" + point.label));
 }
 
-std::string seriesGroup(const ChartSeries& series, const LogScale& x, const LogScale& y) {
+std::string seriesGroup(const Chart& chart, const ChartSeries& series, const Plot& plot) {
+    const auto& [x, y] = plot;
     std::string line;
     std::string markers;
     for (const ChartPoint& point : series.points) {
-        if (!drawable(point))
+        if (!drawable(chart, point))
             continue;
         line +=
             fmt::format("{}{:.1f} {:.1f}", line.empty() ? "M" : "L", x.px(point.x), y.px(point.y));
-        markers += marker(series, point, x.px(point.x), y.px(point.y));
+        if (series.marks == ChartMarks::Points)
+            markers += marker(series, point, x.px(point.x), y.px(point.y));
     }
-    if (series.emphasised && drawable(*series.emphasised)) {
+    if (series.emphasised && drawable(chart, *series.emphasised)) {
         const double at_x = x.px(series.emphasised->x);
         const double at_y = y.px(series.emphasised->y);
         markers +=
             fmt::format("<circle class=\"halo\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"8\"/>", at_x, at_y);
         markers += marker(series, *series.emphasised, at_x, at_y);
     }
-    if (markers.empty())
+    if (markers.empty() && line.empty())
         return {};
     return fmt::format(
         "<g class=\"series lane\" data-series=\"{}\" style=\"{}\"><path class=\"line\" "
@@ -149,7 +180,8 @@ std::string seriesGroup(const ChartSeries& series, const LogScale& x, const LogS
         markers);
 }
 
-std::string gridLines(const Chart& chart, const LogScale& x, const LogScale& y) {
+std::string gridLines(const Chart& chart, const Plot& plot) {
+    const auto& [x, y] = plot;
     std::string text;
     for (const double value : x.ticks())
         text += fmt::format("<path class=\"grid\" d=\"M{0:.1f} {1}V{2}\"/><text class=\"tick\" "
@@ -176,16 +208,14 @@ std::string gridLines(const Chart& chart, const LogScale& x, const LogScale& y) 
 }
 
 // Whether the label of a line at `reference` is clearer of the series at the right end.
-bool roomierOnTheRight(const Chart& chart,
-                       const LogScale& x,
-                       const LogScale& y,
-                       double reference_px) {
+bool roomierOnTheRight(const Chart& chart, const Plot& plot, double reference_px) {
+    const auto& [x, y] = plot;
     constexpr double kLabelPx = 150.0;
     double left = kHeight; // to the nearest point
     double right = kHeight;
     for (const ChartSeries& series : chart.series)
         for (const ChartPoint& point : series.points) {
-            if (!drawable(point))
+            if (!drawable(chart, point))
                 continue;
             const double apart = std::abs(y.px(point.y) - reference_px);
             if (x.px(point.x) < kLeft + kLabelPx)
@@ -196,9 +226,9 @@ bool roomierOnTheRight(const Chart& chart,
     return right > left;
 }
 
-std::string referenceLine(const Chart& chart, const LogScale& x, const LogScale& y) {
-    const double at = y.px(chart.reference->y);
-    const bool right = roomierOnTheRight(chart, x, y, at);
+std::string referenceLine(const Chart& chart, const Plot& plot) {
+    const double at = plot.y.px(chart.reference->y);
+    const bool right = roomierOnTheRight(chart, plot, at);
     // Above the line where there is room, else below.
     const double text_y = at > kTop + 18.0 ? at - 6.0 : at + 15.0;
     return fmt::format(
@@ -216,14 +246,14 @@ std::string referenceLine(const Chart& chart, const LogScale& x, const LogScale&
 } // namespace
 
 std::string svgChart(const Chart& chart) {
-    LogScale x(kLeft, kWidth - kRight);
-    LogScale y(kHeight - kBottom, kTop);
+    Plot plot{AxisScale(chart.x.scale, kLeft, kWidth - kRight),
+              AxisScale(chart.y.scale, kHeight - kBottom, kTop)};
     bool empty = true;
     const auto add = [&](const ChartPoint& point) {
-        if (!drawable(point))
+        if (!drawable(chart, point))
             return;
-        x.add(point.x);
-        y.add(point.y);
+        plot.x.add(point.x);
+        plot.y.add(point.y);
         empty = false;
     };
     for (const ChartSeries& series : chart.series) {
@@ -234,19 +264,19 @@ std::string svgChart(const Chart& chart) {
     if (empty)
         return {};
     if (chart.reference)
-        y.add(chart.reference->y);
-    x.finish();
-    y.finish();
+        plot.y.add(chart.reference->y);
+    plot.x.finish();
+    plot.y.finish();
     std::string text =
         fmt::format("<svg class=\"chart\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n",
                     kWidth,
                     kHeight,
                     escaped(chart.title + ". " + chart.summary));
-    text += gridLines(chart, x, y);
+    text += gridLines(chart, plot);
     for (const ChartSeries& series : chart.series)
-        text += seriesGroup(series, x, y);
+        text += seriesGroup(chart, series, plot);
     if (chart.reference)
-        text += referenceLine(chart, x, y);
+        text += referenceLine(chart, plot);
     return text + "</svg>\n";
 }
 
