@@ -400,11 +400,11 @@ void ComponentMesh::addSilhouetteQuadric(std::uint32_t a,
         static_cast<float>(options_.silhouette_weight * instances *
                            static_cast<double>(dot(edge, edge)) / (2.0 * std::numbers::pi));
     for (const std::uint32_t v : {a, b}) {
-        addPlane(metrics_[v].quadric, unit, 0.0f, weight * (angle + sine));
-        addPlane(metrics_[v].quadric,
-                 across * (1.0f / std::sqrt(across2)),
-                 0.0f,
-                 weight * std::max(angle - sine, 0.0f));
+        addSquare(metrics_[v].quadric, unit, 0.0f, weight * (angle + sine));
+        addSquare(metrics_[v].quadric,
+                  across * (1.0f / std::sqrt(across2)),
+                  0.0f,
+                  weight * std::max(angle - sine, 0.0f));
     }
 }
 
