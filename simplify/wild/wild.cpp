@@ -122,10 +122,12 @@ ParameterInfo choice(std::string_view id, std::vector<std::string_view> choices)
 }
 
 std::vector<ParameterInfo> wildParameters() {
-    ParameterInfo epsilon = number("epsilon", 5.0, 0.1);
+    ParameterInfo epsilon = number("epsilon", 5.0, 0.0);
     epsilon.label = "Merge distance";
     epsilon.unit = "% of the diagonal";
-    epsilon.tooltip = "Separate parts that come nearer than this may merge; 0: none.";
+    epsilon.tooltip =
+        "Separate parts that come nearer than this may merge; 0: none, which measured best on "
+        "most models and is fastest. Some .1 % keeps touching parts of a building together.";
     ParameterInfo rule = choice("virtual-edges", {"triangles", "vertices"});
     rule.label = "Near is measured";
     rule.tooltip = "Between triangles, or between vertices as Garland and Heckbert do.";
@@ -169,7 +171,8 @@ Algorithm wildAlgorithm() {
     row.name = "Wild";
     row.short_name = "Wild";
     row.paper = "Liu et al. 2024";
-    row.summary = "Merges separate parts, keeps the area of open borders and takes any triangles.";
+    row.summary =
+        "Takes any triangles, keeps the area of open borders and can merge separate parts.";
     row.parameters = wildParameters();
     row.prepare = prepareWild;
     return row;
