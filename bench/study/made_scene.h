@@ -15,12 +15,12 @@ enum class SceneKind : std::uint8_t {
     City,      // things of sizes from 1 to 1000 under nested nodes, some sheared
 };
 
-constexpr std::array kSceneKinds{SceneKind::Object,
-                                 SceneKind::Furniture,
-                                 SceneKind::Facade,
-                                 SceneKind::Machine,
-                                 SceneKind::Forest,
-                                 SceneKind::City};
+inline constexpr std::array kSceneKinds{SceneKind::Object,
+                                        SceneKind::Furniture,
+                                        SceneKind::Facade,
+                                        SceneKind::Machine,
+                                        SceneKind::Forest,
+                                        SceneKind::City};
 
 const char* kindName(SceneKind kind); // "object"
 

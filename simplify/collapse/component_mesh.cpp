@@ -306,7 +306,8 @@ bool ComponentMesh::closesFan(std::uint32_t a) {
 // Borders: edges with one face, or with two that lie back to back. Seams get the same constraint,
 // so that a flat chequerboard keeps its squares, but may collapse like inner edges.
 void ComponentMesh::addBoundaryQuadrics(std::uint32_t a) {
-    if (face_wedges_.empty() && closesFan(a)) // no seam either
+    const bool has_outline = options_.silhouette_weight > 0.0;
+    if (!has_outline && face_wedges_.empty() && closesFan(a)) // no seam either
         return;
     const std::uint32_t border = nextStamp();
     const std::uint32_t inner = nextStamp();
@@ -328,7 +329,7 @@ void ComponentMesh::addBoundaryQuadrics(std::uint32_t a) {
             --borders;
             if (seamBetween(first, face, a) || seamBetween(first, face, b))
                 addBoundaryQuadric(a, b, first);
-            if (options_.silhouette_weight > 0.0)
+            if (has_outline)
                 addSilhouetteQuadric(a, b, normals_[first], normals_[face]);
         }
     if (borders == 0)

@@ -33,12 +33,12 @@ Measure measureAt(const CollapseSequence& sequence, const Submesh& submesh, std:
     return measure;
 }
 
-// The extents that must stay. A leaf's sag is not its size: an axis less than half as long as both
-// others does not count.
+// The extents that must stay. A leaf's sag is not its size: an axis less than a quarter as long as
+// both others does not count. The height of a flat house is.
 glm::dvec3 leastExtents(const glm::dvec3& size, double share) {
     glm::dvec3 least = size * share;
     for (int axis = 0; axis < 3; ++axis)
-        if (2.0 * size[axis] < std::min(size[(axis + 1) % 3], size[(axis + 2) % 3]))
+        if (4.0 * size[axis] < std::min(size[(axis + 1) % 3], size[(axis + 2) % 3]))
             least[axis] = 0.0;
     return least;
 }

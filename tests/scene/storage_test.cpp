@@ -11,6 +11,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 #include <random>
+#include <span>
 #include <unistd.h>
 
 namespace lodestone {
@@ -142,13 +143,15 @@ TEST_F(StorageTest, AutoIsNeverLargerThanAnyOtherWayAndPredictedToTheByte) {
         const std::array others{ByteModel(scene, {Instancing::Nodes}),
                                 ByteModel(scene, {Instancing::Gpu}),
                                 ByteModel(scene, {Instancing::Expand})};
+        // One instance has nothing to merge with: it keeps its node and its name.
+        const std::size_t merging = scene->instances.size() > 1 ? 3 : 2;
         for (std::uint64_t eighth = 1; eighth <= 8; ++eighth) {
             const std::uint64_t position = (source->positionCount() - 1) * eighth / 8;
             if (position == 0)
                 continue;
             const Lod lod = source->readOut(position, nullptr);
             const std::uint64_t bytes = automatic.bytes(source->shapeAt(position));
-            for (const ByteModel& other : others)
+            for (const ByteModel& other : std::span(others).first(merging))
                 EXPECT_LE(bytes, other.bytes(source->shapeAt(position)))
                     << "round " << round << ", eighth " << eighth;
             EXPECT_EQ(bytes, written(*scene, lod).bytes)
