@@ -40,6 +40,8 @@ std::size_t characterLength(char first) {
 } // namespace
 
 void Ui::record(std::string_view label) const {
+    if (!ImGui::IsItemVisible()) // scrolled away: nobody can click it
+        return;
     // A disabled item has its alpha lowered by BeginDisabled.
     record(
         label, ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), ImGui::GetStyle().Alpha > 0.99f);

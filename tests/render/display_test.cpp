@@ -66,9 +66,10 @@ TEST_F(DisplayTest, AHighlightMarksTheSubmeshOrOneInstance) {
 }
 
 TEST_F(DisplayTest, AnotherScenesInstancesAreMarkedOverASurfaceThatLiesWhereTheyDo) {
+    const GeometryPtr one = square(false);
     auto both = std::make_shared<Geometry>(); // two squares that are one mesh
     for (const float x : {-1.0f, 1.0f})
-        for (const glm::vec3& position : square(false)->positions)
+        for (const glm::vec3& position : one->positions)
             both->positions.push_back(position + glm::vec3(x, 0.0f, 0.0f));
     both->indices = {0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7};
     const auto instanced = sceneOf(square(true), unlit({0.0f, 0.0f, 0.0f, 1.0f}));
