@@ -54,7 +54,7 @@ TEST_F(PickBoxTest, LooksOnlyInFrontOfThePerspectiveCamera) {
     input_.camera.orthographic = false;
     input_.camera.target = {0.0, 0.0, -6.05}; // the eye is just behind the first two squares
     input_.camera.distance = 6.0;
-    EXPECT_EQ(picked({-2.0, -2.0}, {2.0, 2.0}), (std::vector<Highlight>{{0, 2}}));
+    EXPECT_EQ(picked({-8.0, -8.0}, {8.0, 8.0}), (std::vector<Highlight>{{0, 2}}));
 }
 
 } // namespace

@@ -189,6 +189,7 @@ def test_tab_hides_the_panels_and_n_shows_normals(folder):
 def test_resizing_keeps_every_part_inside(folder):
     with open_chair(folder) as window:
         for width, height in ((1500, 900), (1280, 720)):
+            window.objects.clear()  # what is scrolled away by then is not told again
             xdotool("windowsize", "--sync", window.window_id(), str(width), str(height))
             window.wait_frames(4)
             window.wait("the new layout", lambda w=width: abs(
