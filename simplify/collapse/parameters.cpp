@@ -17,6 +17,34 @@ ParameterInfo weightParameter(std::string_view id,
     return weight;
 }
 
+void addAttributeWeights(std::vector<ParameterInfo>& parameters) {
+    const AttributeWeights weights;
+    parameters.push_back(weightParameter(
+        "uv-weight",
+        "Texture weight",
+        "How firmly textures stay in place. 1: sliding by some way counts as a surface that is off "
+        "by as much. 0: texture coordinates are only carried along.",
+        weights.texcoord));
+    parameters.push_back(weightParameter(
+        "normal-weight",
+        "Shading weight",
+        "How much shading normals count. 1: a radian counts as a surface that is off by an edge's "
+        "length. 0: they are only carried along.",
+        weights.normal));
+    parameters.push_back(weightParameter(
+        "color-weight",
+        "Colour weight",
+        "How much vertex colours count. 1: black for white counts as a surface that is off by an "
+        "edge's length. 0: they are only carried along.",
+        weights.color));
+    parameters.push_back(weightParameter("motion-weight",
+                                         "Motion weight",
+                                         "How much morph targets and joints count. 1: a surface "
+                                         "that is off while it moves counts as "
+                                         "one off at rest. 0: they are only carried along.",
+                                         weights.motion));
+}
+
 } // namespace
 
 std::vector<ParameterInfo> collapseParameters() {
@@ -44,31 +72,7 @@ std::vector<ParameterInfo> collapseParameters() {
     flip.minimum = 10.0;
     flip.maximum = 180.0;
     flip.fallback = 80.0;
-    const AttributeWeights weights;
-    parameters.push_back(weightParameter(
-        "uv-weight",
-        "Texture weight",
-        "How firmly textures stay in place. 1: sliding by some way counts as a surface that is off "
-        "by as much. 0: texture coordinates are only carried along.",
-        weights.texcoord));
-    parameters.push_back(weightParameter(
-        "normal-weight",
-        "Shading weight",
-        "How much shading normals count. 1: a radian counts as a surface that is off by an edge's "
-        "length. 0: they are only carried along.",
-        weights.normal));
-    parameters.push_back(weightParameter(
-        "color-weight",
-        "Colour weight",
-        "How much vertex colours count. 1: black for white counts as a surface that is off by an "
-        "edge's length. 0: they are only carried along.",
-        weights.color));
-    parameters.push_back(weightParameter("motion-weight",
-                                         "Motion weight",
-                                         "How much morph targets and joints count. 1: a surface "
-                                         "that is off while it moves counts as "
-                                         "one off at rest. 0: they are only carried along.",
-                                         weights.motion));
+    addAttributeWeights(parameters);
     ParameterInfo seams;
     seams.id = "seams";
     seams.label = "Seams permissive";
