@@ -18,7 +18,7 @@ struct AttributeWeights {
     double texcoord = 0.5; // 1: a texture sliding by some way counts as a surface off by as much
     double normal = 0.2;   // 1: a radian counts as a surface off by an edge's length
     double color = 0.25;   // 1: black for white counts as a surface off by an edge's length
-    double motion = 1.0;   // 1: off in a morph target or a joint's motion counts as off at rest
+    double motion = 0.03;  // 1: off in a morph target or a joint's motion counts as off at rest
 };
 
 class CollapseMethod;
