@@ -73,7 +73,8 @@ private:
             if ((high_ - low_) / step > kMostTicks)
                 step *= factor;
         std::vector<double> found;
-        for (double count = std::ceil(low_ / step); count * step <= high_; count += 1.0)
+        const double first = std::ceil(low_ / step) + 0.0; // -0 + 0 is 0
+        for (double count = first; count * step <= high_; count += 1.0)
             found.push_back(count * step);
         return found;
     }

@@ -223,6 +223,17 @@ TEST(SvgChart, EveryRangeHasSomeTicksAndNotTooMany) {
     }
 }
 
+TEST(SvgChart, NothingHasNoSign) {
+    Chart chart;
+    chart.x = {"saved", ChartUnit::Percent, ChartScale::Linear};
+    chart.y = {"share", ChartUnit::Percent, ChartScale::Linear};
+    chart.series.resize(1);
+    chart.series[0].points = {{-3.0, 0.5, {}}, {97.0, 99.5, {}}};
+    const std::string svg = svgChart(chart);
+    EXPECT_NE(svg.find(">0 %<"), std::string::npos);
+    EXPECT_EQ(svg.find("-0 %"), std::string::npos);
+}
+
 TEST(ComparisonText, ColumnsOfTheTableAreAligned) {
     const std::vector<std::string> lines = linesOf(comparisonTable(comparisonOf(1120)));
     ASSERT_GE(lines.size(), 3u);
