@@ -26,7 +26,7 @@ Mesh box(Random& random, std::uint32_t faces) {
     Mesh mesh;
     const glm::dvec3 half(random.in(0.2, 0.5), random.in(0.2, 0.5), random.in(0.2, 0.5));
     generate::addBox(mesh, -half, half);
-    generate::refineTo(mesh, std::max<std::size_t>(12, faces / 2 * 2));
+    generate::refineTo(mesh, std::max<std::size_t>(12, std::size_t{faces} / 2 * 2));
     return mesh;
 }
 
@@ -161,7 +161,9 @@ glm::dmat4 inRing(Random& random, std::uint32_t i, std::uint32_t count) {
 glm::dvec3 inGrid(std::uint32_t i, std::uint32_t count, double step) {
     const auto side =
         std::max(1U, static_cast<std::uint32_t>(std::ceil(std::sqrt(static_cast<double>(count)))));
-    return {step * (i % side - 0.5 * (side - 1)), 0.0, step * (i / side - 0.5 * (side - 1))};
+    const std::uint32_t row = i / side;
+    const std::uint32_t column = i % side;
+    return {step * (column - 0.5 * (side - 1)), 0.0, step * (row - 0.5 * (side - 1))};
 }
 
 glm::dmat4 inCrown(Random& random) {
