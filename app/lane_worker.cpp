@@ -1,7 +1,5 @@
 #include "app/lane_worker.h"
 
-#include "simplify/stoppable_source.h"
-
 #include <algorithm>
 #include <chrono>
 #include <fmt/core.h>
@@ -360,16 +358,13 @@ bool LaneWorker::Shown::matches(const Shown& other) const {
 ReadOut LaneWorker::readOut(const Shown& wanted, const Lod* previous, const JobContext& job) {
     const auto start = std::chrono::steady_clock::now();
     const LodSource& source = *wanted.source;
-    const auto* stoppable = dynamic_cast<const StoppableSource*>(&source);
     ReadOut result;
     if (wanted.position)
         result.resolved.position = std::min(*wanted.position, source.positionCount() - 1);
     else
-        result.resolved = stoppable ? stoppable->resolveWithin(*wanted.target, *wanted.bytes, job)
-                                    : source.resolve(*wanted.target, *wanted.bytes);
+        result.resolved = source.resolveWithin(*wanted.target, *wanted.bytes, job);
     const std::uint64_t at = result.resolved.position;
-    result.lod = std::make_shared<const Lod>(stoppable ? stoppable->readOutWithin(at, job)
-                                                       : source.readOut(at, previous));
+    result.lod = std::make_shared<const Lod>(source.readOutWithin(at, previous, job));
     if (job.stopRequested())
         return result;
     result.predicted_bytes = wanted.bytes->bytes(source.shapeAt(at));

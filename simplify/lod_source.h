@@ -37,6 +37,19 @@ public:
     virtual Resolved resolve(const Target& target, const ByteModel& bytes) const = 0;
     // previous: a LOD of this source or nullptr; submeshes at the same step share its geometry.
     virtual Lod readOut(std::uint64_t position, const Lod* previous) const = 0;
+
+    // resolve() and readOut() that stop within 10 ms where asked to: what they give then is to be
+    // dropped. Sources that answer within a frame do not look.
+    virtual Resolved
+    resolveWithin(const Target& target, const ByteModel& bytes, const JobContext& /*job*/) const {
+        return resolve(target, bytes);
+    }
+
+    virtual Lod
+    readOutWithin(std::uint64_t position, const Lod* previous, const JobContext& /*job*/) const {
+        return readOut(position, previous);
+    }
+
     // Same sequences, another order: milliseconds. bytes as in resolve.
     virtual std::shared_ptr<const LodSource> rescheduled(const ScheduleOptions& options,
                                                          const ByteModel& bytes) const = 0;

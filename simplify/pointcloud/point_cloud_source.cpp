@@ -3,7 +3,6 @@
 #include "simplify/pointcloud/cloud_cache.h"
 #include "simplify/pointcloud/cloud_ladder.h"
 #include "simplify/pointcloud/rung_search.h"
-#include "simplify/stoppable_source.h"
 
 #include <algorithm>
 #include <chrono>
@@ -25,7 +24,7 @@ struct PointCloudInput {
     ScheduleOptions schedule;
 };
 
-class PointCloudSource final : public LodSource, public StoppableSource {
+class PointCloudSource final : public LodSource {
 public:
     explicit PointCloudSource(PointCloudInput input)
         : cloud_(std::move(input.cloud)), options_(input.options),
@@ -56,14 +55,17 @@ public:
         return resolveWithin(target, bytes, {});
     }
 
-    Lod readOut(std::uint64_t position, const Lod* /*previous*/) const override {
-        return readOutWithin(position, {});
+    Lod readOut(std::uint64_t position, const Lod* previous) const override {
+        return readOutWithin(position, previous, {});
     }
 
     Resolved resolveWithin(const Target& target,
                            const ByteModel& bytes,
                            const JobContext& job) const override;
-    Lod readOutWithin(std::uint64_t position, const JobContext& job) const override;
+    // What was found comes at once when it is asked for again.
+    Lod readOutWithin(std::uint64_t position,
+                      const Lod* previous,
+                      const JobContext& job) const override;
     LodSourcePtr rescheduled(const ScheduleOptions& options, const ByteModel&) const override;
 
     std::vector<std::string> notes() const override { return {}; }
@@ -183,7 +185,9 @@ CloudCountsPtr PointCloudSource::countsAt(std::uint64_t position, const JobConte
     return drafts ? countsOf(*drafts) : countsAt(0, {});
 }
 
-Lod PointCloudSource::readOutWithin(std::uint64_t position, const JobContext& job) const {
+Lod PointCloudSource::readOutWithin(std::uint64_t position,
+                                    const Lod* /*previous*/,
+                                    const JobContext& job) const {
     position = std::min(position, lastPosition());
     if (const LodPtr known = cache_.lod(position))
         return *known;
