@@ -1,9 +1,9 @@
 #include "render/gpu_geometry.h"
 
 #include "render/renderer_state.h"
+#include "scene/finite.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 namespace lodestone {
@@ -53,7 +53,7 @@ sceneRows(const glm::dmat4& world, const SceneFrame& scene, const LocalFrame& lo
     std::array<glm::vec4, 3> rows{};
     for (int r = 0; r < 3; ++r) {
         const glm::vec4 row(linear[0][r], linear[1][r], linear[2][r], origin[r]);
-        if (std::isfinite(row.x + row.y + row.z + row.w))
+        if (isFinite(row))
             rows[static_cast<std::size_t>(r)] = row;
     }
     return rows;

@@ -1,34 +1,20 @@
-#include "render/view.h"
 #include "simplify/algorithm.h"
 #include "tests/models_folder.h"
-#include "tests/render/headless_test.h"
+#include "tests/render/view_fixture.h"
 #include "tests/simplify/meshes.h"
 
 #include <algorithm>
 #include <iostream>
 #include <numbers>
+#include <set>
 
 namespace lodestone {
 namespace {
 
 // Draws a scene's LODs with and without their back faces. A surface without holes covers the same
 // pixels both ways: where only a back face is seen, one looks through a crack at the far inside.
-class InsideOut : public tests::HeadlessTest {
+class InsideOut : public tests::ViewTest {
 protected:
-    static constexpr int kSide = 256;
-
-    void SetUp() override {
-        HeadlessTest::SetUp();
-        if (!context_)
-            return;
-        Result<Renderer> renderer = Renderer::create(*context_);
-        ASSERT_TRUE(renderer) << renderer.error().message;
-        renderer_ = *renderer;
-        Result<View> view = View::create(*renderer_);
-        ASSERT_TRUE(view);
-        view_ = std::move(*view);
-    }
-
     // Every material hides its back faces and nothing is transparent.
     static ScenePtr solid(const Scene& scene) {
         auto copy = std::make_shared<Scene>(scene);
@@ -47,25 +33,19 @@ protected:
 
     Seen look(const Scene& shown, const Lod& lod) {
         Seen seen;
-        Result<GpuScene> gpu = GpuScene::create(*renderer_, solid(shown));
-        EXPECT_TRUE(gpu);
-        LodHandle handle;
-        EXPECT_TRUE(gpu->update(handle, lod));
-        View::Input input;
-        input.scene = &*gpu;
-        input.lod = &handle;
-        input.size = {kSide, kSide};
-        input.options.samples = 1;
-        input.options.shading = Shading::Normals;
-        input.options.background = Background::Transparent;
-        const FramePoints points = gpu->framePoints();
+        load(solid(shown), lod);
+        input_.size = {kSide, kSide};
+        input_.options.samples = 1;
+        input_.options.shading = Shading::Normals;
+        input_.options.background = Background::Transparent;
+        const FramePoints points = gpu_->framePoints();
         for (const double up : {-1.2, -0.4, 0.4, 1.2})
             for (int around = 0; around < 6; ++around) {
-                input.camera.azimuth_rad = around * std::numbers::pi / 3.0 + up;
-                input.camera.elevation_rad = up;
-                frameCamera(input.camera, points, 1.0);
-                const std::vector<std::uint8_t> front = draw(input, BackFaces::PerMaterial);
-                const std::vector<std::uint8_t> both = draw(input, BackFaces::Shown);
+                input_.camera.azimuth_rad = around * std::numbers::pi / 3.0 + up;
+                input_.camera.elevation_rad = up;
+                frameCamera(input_.camera, points, 1.0);
+                const std::vector<std::uint8_t> front = drawWith(BackFaces::PerMaterial);
+                const std::vector<std::uint8_t> both = drawWith(BackFaces::Shown);
                 for (std::size_t i = 0; i < both.size(); i += 4) {
                     const bool is_covered = both[i + 3] != 0;
                     seen.covered += is_covered ? 1 : 0;
@@ -77,16 +57,12 @@ protected:
     }
 
 private:
-    std::vector<std::uint8_t> draw(View::Input& input, BackFaces faces) {
-        input.options.back_faces = faces;
-        EXPECT_TRUE(view_->draw(input));
-        const Result<Pixels> pixels = view_->readPixels();
-        EXPECT_TRUE(pixels);
-        return pixels ? pixels->rgba : std::vector<std::uint8_t>();
-    }
+    static constexpr std::uint32_t kSide = 256;
 
-    std::optional<Renderer> renderer_;
-    std::optional<View> view_;
+    std::vector<std::uint8_t> drawWith(BackFaces faces) {
+        input_.options.back_faces = faces;
+        return draw().rgba;
+    }
 };
 
 // By position, across all seams and primitives.
@@ -110,12 +86,9 @@ bool hasSeams(const Scene& scene) {
     std::size_t places = 0;
     for (const Submesh& submesh : scene.submeshes)
         for (const Primitive& primitive : submesh.primitives) {
-            std::vector<glm::vec3> all = primitive.geometry->positions;
+            const std::vector<glm::vec3>& all = primitive.geometry->positions;
             vertices += all.size();
-            std::ranges::sort(all, [](const glm::vec3& a, const glm::vec3& b) {
-                return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-            });
-            places += static_cast<std::size_t>(std::ranges::unique(all).begin() - all.begin());
+            places += std::set<glm::vec3, meshes::LessByPlace>(all.begin(), all.end()).size();
         }
     return vertices > places + places / 50;
 }

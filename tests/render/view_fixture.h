@@ -81,18 +81,23 @@ protected:
         view_ = std::move(*view);
     }
 
-    // Loads the scene, aims a camera straight at the xy plane that shows -2..2.
-    void load(ScenePtr scene) {
+    // What the next pictures show.
+    void load(const ScenePtr& scene, const Lod& lod) {
         lod_ = LodHandle();
         Result<GpuScene> gpu = GpuScene::create(*renderer_, scene);
         ASSERT_TRUE(gpu) << gpu.error().message;
         gpu_ = std::move(*gpu);
-        const Result<UploadReport> uploaded = gpu_->update(lod_, fullLod(*scene));
+        const Result<UploadReport> uploaded = gpu_->update(lod_, lod);
         ASSERT_TRUE(uploaded) << uploaded.error().message;
         input_ = {};
         input_.scene = &*gpu_;
         input_.lod = &lod_;
         input_.size = {kSize, kSize};
+    }
+
+    // Loads the scene, aims a camera straight at the xy plane that shows -2..2.
+    void load(const ScenePtr& scene) {
+        load(scene, fullLod(*scene));
         input_.options.background = Background::Solid;
         input_.options.background_srgb = glm::vec3(0.0f);
         input_.camera.azimuth_rad = 0.0;

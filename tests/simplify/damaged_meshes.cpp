@@ -1,5 +1,6 @@
 #include "tests/simplify/damaged_meshes.h"
 
+#include "scene/finite.h"
 #include "simplify/wild/wild.h"
 #include "tests/simplify/meshes.h"
 
@@ -121,7 +122,7 @@ void expectWildReachesAThousandth(const ScenePtr& scene) {
     for (const LodSubmesh& submesh : lod.submeshes)
         for (const GeometryPtr& geometry : submesh.primitives) {
             for (const glm::vec3& p : geometry->positions)
-                ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
+                ASSERT_TRUE(isFinite(p));
             for (const std::uint32_t index : geometry->indices)
                 ASSERT_LT(index, geometry->positions.size());
         }

@@ -3,6 +3,7 @@
 #include "simplify/collapse/edge_collapse_source.h"
 
 #include <span>
+#include <tuple>
 
 namespace lodestone::meshes {
 
@@ -43,6 +44,13 @@ struct Shape {
     double area = 0.0;
     Bounds bounds;
     bool finite = true;
+};
+
+// Orders places, so that equal ones can be found.
+struct LessByPlace {
+    bool operator()(const glm::vec3& a, const glm::vec3& b) const {
+        return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+    }
 };
 
 Shape shapeOf(std::span<const GeometryPtr> primitives);
