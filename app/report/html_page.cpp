@@ -2,6 +2,7 @@
 
 #include "app/cli_report.h"
 #include "app/report/comparison_text.h"
+#include "app/report/html_frame.h"
 #include "app/report/html_sections.h"
 #include "app/report/html_text.h"
 
@@ -13,42 +14,6 @@
 namespace lodestone {
 
 namespace {
-
-std::string head(const Comparison& comparison) {
-    return fmt::format(
-        R"(<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8"/>
-<meta name="viewport" content="width=device-width, initial-scale=1"/>
-<meta name="color-scheme" content="dark light"/>
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'"/>
-<meta name="generator" content="{}"/>
-<title>{} – comparison of levels of detail</title>
-<link rel="icon" href="data:,"/>
-<style>/*<![CDATA[*/
-{}/*]]>*/</style>
-</head>
-)",
-        escaped(comparison.machine.program),
-        escaped(comparison.model.name),
-        pageStyle());
-}
-
-std::string titleBar(const Comparison& comparison) {
-    return fmt::format(
-        R"(<header class="top">
-<div>
-<p class="brand">Lodestone <span>comparison</span></p>
-<h1>{}</h1>
-<p class="target">Every algorithm at <strong>{}</strong></p>
-</div>
-<button type="button" id="theme" class="button" hidden="hidden" aria-label="Switch between light and dark">Light</button>
-</header>
-)",
-        escaped(comparison.model.name),
-        escaped(targetText(comparison.target)));
-}
 
 std::string fact(std::string_view name, std::string_view value) {
     return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", name, escaped(value));
@@ -174,7 +139,6 @@ std::string algorithmList(const Comparison& comparison) {
 }
 
 std::string methodSection(const Comparison& comparison) {
-    const MachineFacts& machine = comparison.machine;
     return fmt::format(
         R"(<section aria-labelledby="method">
 <h2 id="method">How this was measured</h2>
@@ -185,26 +149,34 @@ std::string methodSection(const Comparison& comparison) {
 <li><strong>Time</strong>: wall clock on this machine, everything else as the algorithm’s defaults are.</li>
 </ul>
 </section>
-<footer>
-<p>{} · {} · {} threads · {} · {}</p>
-</footer>
 )",
-        algorithmList(comparison),
-        escaped(machine.program),
-        escaped(machine.processor),
-        machine.threads,
-        escaped(machine.system),
-        escaped(machine.date));
+        algorithmList(comparison));
+}
+
+std::string machineText(const MachineFacts& machine) {
+    return fmt::format("{} · {} · {} threads · {} · {}",
+                       machine.program,
+                       machine.processor,
+                       machine.threads,
+                       machine.system,
+                       machine.date);
 }
 
 } // namespace
 
 std::string comparisonPage(const Comparison& comparison) {
-    return head(comparison) + "<body>\n" + titleBar(comparison) + "<main>\n" +
-           factsList(comparison) + highlightsList(comparison) + picturesSection(comparison) +
-           tablesSection(comparison) + chartsSection(comparison) + notesSection(comparison) +
-           methodSection(comparison) + "</main>\n<script>/*<![CDATA[*/\n" + pageScript() +
-           "/*]]>*/</script>\n</body>\n</html>\n";
+    const PageFrame frame{comparison.machine.program,
+                          comparison.model.name + " – comparison of levels of detail",
+                          "comparison",
+                          comparison.model.name,
+                          "Every algorithm at <strong>" + escaped(targetText(comparison.target)) +
+                              "</strong>",
+                          machineText(comparison.machine)};
+    return framedPage(frame,
+                      factsList(comparison) + highlightsList(comparison) +
+                          picturesSection(comparison) + tablesSection(comparison) +
+                          chartsSection(comparison) + notesSection(comparison) +
+                          methodSection(comparison));
 }
 
 } // namespace lodestone

@@ -1,6 +1,8 @@
 #include "app/lane.h"
+#include "app/report/html_frame.h"
 #include "app/report/html_sections.h"
 #include "app/report/html_text.h"
+#include "app/report/machine.h"
 #include "app/report/svg_chart.h"
 #include "bench/machine.h"
 #include "bench/study/study_report.h"
@@ -10,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <fmt/core.h>
+#include <functional>
 
 namespace lodestone::bench {
 
@@ -148,8 +151,8 @@ ChartSeries distribution(std::string name, std::vector<double> values, std::size
     return series;
 }
 
-template <class Value>
-std::vector<double> valuesOf(const Study& study, const Value& value) {
+std::vector<double> valuesOf(const Study& study,
+                             const std::function<double(const StudyRow&)>& value) {
     std::vector<double> values;
     for (const StudyRow& row : study.rows)
         if (row.failure.empty())
@@ -157,15 +160,30 @@ std::vector<double> valuesOf(const Study& study, const Value& value) {
     return values;
 }
 
+struct Curve {
+    const char* name;
+    std::function<double(const StudyRow&)> value;
+};
+
+// Shares of the models below, of one or two values. x: what and in which unit.
+std::string sharesFigure(const Study& study,
+                         Chart chart,
+                         const ChartAxis& x,
+                         const std::vector<Curve>& curves) {
+    chart.x = x;
+    chart.y = {"models", ChartUnit::Percent, ChartScale::Linear};
+    for (const Curve& curve : curves)
+        chart.series.push_back(
+            distribution(curve.name, valuesOf(study, curve.value), chart.series.size()));
+    return figure(chart);
+}
+
 std::string ipsFigure(const Study& study) {
     Chart chart;
     chart.title = "Instances per submesh";
     chart.summary = "Share of models below; as the paper’s figure 6.";
-    chart.x = {"instances per submesh", ChartUnit::Count};
-    chart.y = {"models", ChartUnit::Percent, ChartScale::Linear};
-    chart.series.push_back(
-        distribution("models", valuesOf(study, [](const StudyRow& row) { return row.ips(); }), 1));
-    return figure(chart);
+    return sharesFigure(
+        study, chart, {"instances per submesh", ChartUnit::Count}, {{"models", &StudyRow::ips}});
 }
 
 std::string sizeFigure(const Study& study) {
@@ -173,17 +191,11 @@ std::string sizeFigure(const Study& study) {
     chart.title = "File size IAS saves against Quadric";
     chart.summary = "At equal triangles, 20 % of the original’s; negative: larger. Share of models "
                     "below; as the paper’s figure 7.";
-    chart.x = {"% of Quadric’s file", ChartUnit::Percent, ChartScale::Linear};
-    chart.y = {"models", ChartUnit::Percent, ChartScale::Linear};
-    chart.series.push_back(distribution(
-        "ordering cost",
-        valuesOf(study, [](const StudyRow& row) { return row.costSizeReductionPercent(); }),
-        0));
-    chart.series.push_back(distribution(
-        "ordering triangle",
-        valuesOf(study, [](const StudyRow& row) { return row.sizeReductionPercent(); }),
-        1));
-    return figure(chart);
+    return sharesFigure(study,
+                        chart,
+                        {"% of Quadric’s file", ChartUnit::Percent, ChartScale::Linear},
+                        {{"ordering cost", &StudyRow::costSizeReductionPercent},
+                         {"ordering triangle", &StudyRow::sizeReductionPercent}});
 }
 
 std::string errorFigure(const Study& study) {
@@ -192,22 +204,16 @@ std::string errorFigure(const Study& study) {
     chart.title = "Distance IAS adds to Quadric’s";
     chart.summary = "Difference of the distances from the original at equal triangles, within 2 % "
                     "of the diagonal either way; negative: IAS is closer. Share of models below.";
-    chart.x = {"% of the diagonal", ChartUnit::Percent, ChartScale::Linear};
-    chart.y = {"models", ChartUnit::Percent, ChartScale::Linear};
-    const auto within = [](double value) { return std::clamp(value, -kMost, kMost); };
-    chart.series.push_back(distribution("Hausdorff",
-                                        valuesOf(study,
-                                                 [&](const StudyRow& row) {
-                                                     return within(row.ias.hausdorff -
-                                                                   row.quadric.hausdorff);
-                                                 }),
-                                        0));
-    chart.series.push_back(distribution(
-        "mean",
-        valuesOf(study,
-                 [&](const StudyRow& row) { return within(row.ias.mean - row.quadric.mean); }),
-        1));
-    return figure(chart);
+    const auto added = [](double StudyLevel::*distance) {
+        return [distance](const StudyRow& row) {
+            return std::clamp(row.ias.*distance - row.quadric.*distance, -kMost, kMost);
+        };
+    };
+    return sharesFigure(
+        study,
+        chart,
+        {"% of the diagonal", ChartUnit::Percent, ChartScale::Linear},
+        {{"Hausdorff", added(&StudyLevel::hausdorff)}, {"mean", added(&StudyLevel::mean)}});
 }
 
 std::string card(std::string_view title, const std::string& value, std::string_view rest) {
@@ -290,44 +296,23 @@ std::string failuresSection(const Study& study) {
                                items + "</dl>\n</section>\n";
 }
 
-std::string head() {
-    return fmt::format(
-        R"(<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8"/>
-<meta name="viewport" content="width=device-width, initial-scale=1"/>
-<meta name="color-scheme" content="dark light"/>
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'"/>
-<title>Instance-aware simplification, measured again</title>
-<link rel="icon" href="data:,"/>
-<style>/*<![CDATA[*/
-{}/*]]>*/</style>
-</head>
-<body>
-<header class="top">
-<div>
-<p class="brand">Lodestone <span>study</span></p>
-<h1>Instance-aware simplification, measured again</h1>
-<p class="target">IAS against Quadric on the expanded scene, at equal triangles</p>
-</div>
-<button type="button" id="theme" class="button" hidden="hidden" aria-label="Switch between light and dark">Light</button>
-</header>
-)",
-        pageStyle());
-}
-
 } // namespace
 
 std::string studyPage(const Study& study) {
-    return head() + "<main>\n" + cards(summaryOf(study)) + tableSection(study) +
-           "<section aria-labelledby=\"figures\">\n<h2 id=\"figures\">Figures</h2>\n<div "
-           "class=\"charts\">\n" +
-           treeFigure(study) + ipsFigure(study) + sizeFigure(study) + errorFigure(study) +
-           "</div>\n</section>\n" + modelsSection(study) + failuresSection(study) +
-           "</main>\n<footer>\n<p>" + escaped(commitText()) +
-           "</p>\n</footer>\n<script>/*<![CDATA[*/\n" + pageScript() +
-           "/*]]>*/</script>\n</body>\n</html>\n";
+    constexpr const char* kTitle = "Instance-aware simplification, measured again";
+    const PageFrame frame{thisMachine().program,
+                          kTitle,
+                          "study",
+                          kTitle,
+                          "IAS against Quadric on the expanded scene, at equal triangles",
+                          commitText()};
+    return framedPage(frame,
+                      cards(summaryOf(study)) + tableSection(study) +
+                          "<section aria-labelledby=\"figures\">\n<h2 id=\"figures\">Figures"
+                          "</h2>\n<div class=\"charts\">\n" +
+                          treeFigure(study) + ipsFigure(study) + sizeFigure(study) +
+                          errorFigure(study) + "</div>\n</section>\n" + modelsSection(study) +
+                          failuresSection(study));
 }
 
 } // namespace lodestone::bench
