@@ -3,6 +3,7 @@
 // Errors: those of importing, simplifying and measuring.
 #include "bench/inputs.h"
 #include "bench/table.h"
+#include "simplify/algorithm.h"
 #include "simplify/lod_source.h"
 
 namespace lodestone::bench {
@@ -79,9 +80,13 @@ int runMemoryChild();
 
 // --- what they share
 
+// What meshoptimizer's simplify and the sketch look at: positions. Attributes are carried along.
+ParameterValues positionsAlone();
+
 // expanded: a scene of which every submesh is drawn once. Whole sequence and schedule.
-Result<LodSourcePtr> prepareQuadric(const ScenePtr& expanded);
-Result<LodSourcePtr> prepareIas(const ScenePtr& scene, Ordering ordering);
+Result<LodSourcePtr> prepareQuadric(const ScenePtr& expanded, const ParameterValues& values);
+Result<LodSourcePtr>
+prepareIas(const ScenePtr& scene, const ParameterValues& values, Ordering ordering);
 
 // meshoptimizer to 20 % of a scene of one mesh, equal positions welded beforehand.
 Work meshoptimizerWork(const ScenePtr& scene);
@@ -95,6 +100,11 @@ void addSketchTime(Table& table,
                    const Sketch& sketch,
                    std::uint64_t triangles,
                    std::span<const std::vector<double>> seconds_and_anchor);
+
+// One row: what it costs to let attributes count, as they do by default. [rounds] each
+void addAttributeTime(Table& table,
+                      const std::vector<double>& by_default,
+                      const std::vector<double>& positions_alone);
 
 // Rows: triangles left, maximum and mean at 20 %, beside the sketch's. Returns that LOD.
 Result<Lod>

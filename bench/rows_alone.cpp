@@ -56,18 +56,20 @@ Result<void> addDistances(Bench& bench, const LodSource& source, const AloneTarg
 Result<void>
 addAloneRows(Bench& bench, const ScenePtr& scene, const AloneTargets& targets, SketchInput input) {
     const int runs = countScene(*scene).triangles < kShortBelow ? 5 : 1;
+    using Made = Result<std::shared_ptr<const void>>;
     const std::vector<Contender> contenders{
-        {[&]() -> Result<std::shared_ptr<const void>> { return prepareQuadric(scene); }, runs},
-        {meshoptimizerWork(scene), runs}};
+        {[&]() -> Made { return prepareQuadric(scene, positionsAlone()); }, runs},
+        {meshoptimizerWork(scene), runs},
+        {[&]() -> Made { return prepareQuadric(scene, {}); }, runs}};
     const auto seconds = timeInTurns(contenders, bench.rounds);
     if (!seconds)
         return tl::unexpected(seconds.error());
-    const Result<LodSourcePtr> source = prepareQuadric(scene);
+    const Result<LodSourcePtr> source = prepareQuadric(scene, positionsAlone());
     if (!source)
         return tl::unexpected(source.error());
     const std::uint64_t triangles = (*source)->trianglesAt(0);
     bench.table.ratioAtMost(
-        fmt::format("Quadric, {} triangles, whole sequence", countText(triangles)),
+        fmt::format("Quadric, positions alone, {} triangles, whole sequence", countText(triangles)),
         {medianRatio((*seconds)[0], (*seconds)[1]),
          targets.time_ratio,
          secondsText(spreadOf((*seconds)[0])),
@@ -77,7 +79,10 @@ addAloneRows(Bench& bench, const ScenePtr& scene, const AloneTargets& targets, S
         return distances;
     addSketchTime(bench.table, targets.sketch, triangles, *seconds);
     const Result<Lod> lod = addSketchQuality(bench.table, **source, targets.sketch, input);
-    return lod ? Result<void>() : tl::unexpected(lod.error());
+    if (!lod)
+        return tl::unexpected(lod.error());
+    addAttributeTime(bench.table, (*seconds)[2], (*seconds)[0]);
+    return {};
 }
 
 } // namespace lodestone::bench

@@ -19,12 +19,13 @@ Result<void> addCardRows(Bench& bench, const ScenePtr& scene) {
     if (!bunny)
         return tl::unexpected(bunny.error());
     const std::vector<Contender> contenders{{[&]() -> Result<std::shared_ptr<const void>> {
-                                                 return prepareIas(scene, Ordering::Triangle);
+                                                 return prepareIas(
+                                                     scene, positionsAlone(), Ordering::Triangle);
                                              },
                                              3},
                                             {meshoptimizerWork(*bunny), 5}};
     const auto seconds = timeInTurns(contenders, bench.rounds);
-    const Result<LodSourcePtr> source = prepareIas(scene, Ordering::Triangle);
+    const Result<LodSourcePtr> source = prepareIas(scene, positionsAlone(), Ordering::Triangle);
     if (!seconds || !source)
         return tl::unexpected(seconds ? source.error() : seconds.error());
     Table& table = bench.table;

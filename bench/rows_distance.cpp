@@ -14,7 +14,7 @@ Result<void> addDistanceRows(Bench& bench) {
     const Result<ScenePtr> expanded = expandScene(**bunny, {});
     if (!expanded)
         return tl::unexpected(expanded.error());
-    const Result<LodSourcePtr> quadric = prepareQuadric(*expanded);
+    const Result<LodSourcePtr> quadric = prepareQuadric(*expanded, {});
     if (!quadric)
         return tl::unexpected(quadric.error());
     const ScenePtr scene = (*quadric)->scene();

@@ -19,9 +19,10 @@ struct Ours {
 
 Result<Ours> prepareOurs(const ScenePtr& scene) {
     const ByteModel bytes(scene, ExportOptions{});
-    const Result<LodSourcePtr> ias = prepareIas(scene, Ordering::Triangle);
-    const Result<LodSourcePtr> no_removal =
-        iasAlgorithm().prepare(scene, {{std::string(removalParameter().id), 0.0}}, {}, {});
+    const Result<LodSourcePtr> ias = prepareIas(scene, positionsAlone(), Ordering::Triangle);
+    ParameterValues values = positionsAlone();
+    values[std::string(removalParameter().id)] = 0.0;
+    const Result<LodSourcePtr> no_removal = iasAlgorithm().prepare(scene, values, {}, {});
     if (!ias || !no_removal)
         return tl::unexpected((ias ? no_removal : ias).error());
     const Lod coarsest = (*no_removal)->readOut((*no_removal)->positionCount() - 1, nullptr);

@@ -27,12 +27,12 @@ Result<std::uint64_t> bytesAt20(const LodSource& source, const std::filesystem::
 Result<void> addSizes(Table& table, const ScenePtr& maple, const std::filesystem::path& folder) {
     const Result<std::uint64_t> original =
         writtenBytes(*maple, fullLod(*maple), folder / "maple.glb");
-    const Result<LodSourcePtr> ias = prepareIas(maple, Ordering::Triangle);
+    const Result<LodSourcePtr> ias = prepareIas(maple, {}, Ordering::Triangle);
     const Result<ScenePtr> expanded = expandScene(*maple, {});
     if (!original || !ias || !expanded)
         return tl::unexpected(!original ? original.error()
                                         : (ias ? expanded.error() : ias.error()));
-    const Result<LodSourcePtr> quadric = prepareQuadric(*expanded);
+    const Result<LodSourcePtr> quadric = prepareQuadric(*expanded, {});
     if (!quadric)
         return tl::unexpected(quadric.error());
     const Result<std::uint64_t> ias_bytes = bytesAt20(**ias, folder / "ias.glb");
@@ -70,7 +70,7 @@ Result<void> addReschedule(Bench& bench, const std::string& name) {
     const Result<ScenePtr> scene = bench.inputs.own(name);
     if (!scene)
         return tl::unexpected(scene.error());
-    const Result<LodSourcePtr> source = prepareIas(*scene, Ordering::Triangle);
+    const Result<LodSourcePtr> source = prepareIas(*scene, {}, Ordering::Triangle);
     if (!source)
         return tl::unexpected(source.error());
     const ByteModel bytes(*scene, ExportOptions{});

@@ -79,14 +79,14 @@ Result<void> addReadOutRows(Bench& bench) {
     const Result<ScenePtr> maple = bench.inputs.own("maple");
     if (!maple)
         return tl::unexpected(maple.error());
-    const Result<LodSourcePtr> ias = prepareIas(*maple, Ordering::Triangle);
+    const Result<LodSourcePtr> ias = prepareIas(*maple, {}, Ordering::Triangle);
     if (!ias)
         return tl::unexpected(ias.error());
     addRows(bench.table, "maple, IAS", **ias, {2e-3, 2e-3, 300});
     const Result<ScenePtr> expanded = expandScene(**maple, {});
     if (!expanded)
         return tl::unexpected(expanded.error());
-    const Result<LodSourcePtr> quadric = prepareQuadric(*expanded);
+    const Result<LodSourcePtr> quadric = prepareQuadric(*expanded, {});
     if (!quadric)
         return tl::unexpected(quadric.error());
     addRows(bench.table, "maple expanded, Quadric", **quadric, {33e-3, 60e-3, 60});

@@ -10,16 +10,22 @@
 
 namespace lodestone::bench {
 
-Result<LodSourcePtr> prepareQuadric(const ScenePtr& expanded) {
-    Result<EdgeCollapseOptions> options = readCollapseParameters(quadricAlgorithm(), {});
+ParameterValues positionsAlone() {
+    return {
+        {"uv-weight", 0.0}, {"normal-weight", 0.0}, {"color-weight", 0.0}, {"motion-weight", 0.0}};
+}
+
+Result<LodSourcePtr> prepareQuadric(const ScenePtr& expanded, const ParameterValues& values) {
+    Result<EdgeCollapseOptions> options = readCollapseParameters(quadricAlgorithm(), values);
     if (!options)
         return tl::unexpected(options.error());
     options->remove_instances = false; // as its row does
     return prepareEdgeCollapse(expanded, *options, {}, {});
 }
 
-Result<LodSourcePtr> prepareIas(const ScenePtr& scene, Ordering ordering) {
-    return iasAlgorithm().prepare(scene, {}, {ordering, {}, {}}, {});
+Result<LodSourcePtr>
+prepareIas(const ScenePtr& scene, const ParameterValues& values, Ordering ordering) {
+    return iasAlgorithm().prepare(scene, values, {ordering, {}, {}}, {});
 }
 
 Result<ScenePtr> anchorBunny(Inputs& inputs) {
@@ -53,6 +59,16 @@ void addSketchTime(Table& table,
                        fmt::format("sketch: {}, {:.3f} µs a triangle",
                                    secondsText(sketch.seconds),
                                    1e6 * sketch.seconds / sketch.triangles)});
+}
+
+void addAttributeTime(Table& table,
+                      const std::vector<double>& by_default,
+                      const std::vector<double>& positions_alone) {
+    table.ratioAtMost("attributes counted, as by default: over positions alone",
+                      {medianRatio(by_default, positions_alone),
+                       2.5,
+                       secondsText(spreadOf(by_default)),
+                       secondsText(spreadOf(positions_alone))});
 }
 
 namespace {
