@@ -250,6 +250,17 @@ runComparison(const ComparisonRequest& request, ImageSource* images, ProgressBar
     return comparison;
 }
 
+std::vector<const ComparisonRow*> competingRows(const Comparison& comparison) {
+    std::vector<const ComparisonRow*> rows;
+    for (const ComparisonRow& row : comparison.rows)
+        if (!row.failed())
+            rows.push_back(&row);
+    const auto missed = [](const ComparisonRow* row) { return !row->outcome.target_met; };
+    if (!std::ranges::all_of(rows, missed))
+        std::erase_if(rows, missed);
+    return rows;
+}
+
 std::optional<double> targetDeviation(const Comparison& comparison, const ComparisonRow& row) {
     if (row.failed() || comparison.target.kind == Target::Kind::Error)
         return std::nullopt;

@@ -65,6 +65,10 @@ struct ComparisonRequest {
 Result<Comparison>
 runComparison(const ComparisonRequest& request, ImageSource* images, ProgressBar& bar);
 
+// Rows that may be best at something: what has more triangles than it was asked for has not won by
+// being closer. All that did not fail where none reached the target.
+std::vector<const ComparisonRow*> competingRows(const Comparison& comparison);
+
 // How far the row's result is from the target, relative to it: 0.02 is 2 % above. None for targets
 // that are errors, and for failures.
 std::optional<double> targetDeviation(const Comparison& comparison, const ComparisonRow& row);

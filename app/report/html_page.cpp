@@ -45,19 +45,17 @@ struct Highlight {
 // Those whose value looks the same as the best one share the card.
 std::string highlightCard(const Comparison& comparison, const Highlight& highlight) {
     std::optional<double> least;
-    const auto value_of = [&](const ComparisonRow& row) {
-        return row.failed() ? std::nullopt : highlight.measure(row);
-    };
-    for (const ComparisonRow& row : comparison.rows)
-        if (const std::optional<double> value = value_of(row))
+    const std::vector<const ComparisonRow*> rows = competingRows(comparison);
+    for (const ComparisonRow* row : rows)
+        if (const std::optional<double> value = highlight.measure(*row))
             least = std::min(*value, least.value_or(*value));
     if (!least)
         return {};
     const std::string figure = highlight.text(*least);
     std::string names;
-    for (const ComparisonRow& row : comparison.rows)
-        if (const std::optional<double> value = value_of(row))
-            names += highlight.text(*value) == figure ? rowSwatch(row) : std::string();
+    for (const ComparisonRow* row : rows)
+        if (const std::optional<double> value = highlight.measure(*row))
+            names += highlight.text(*value) == figure ? rowSwatch(*row) : std::string();
     return fmt::format(
         "<li><p>{}</p><p class=\"figure\">{}</p>{}</li>\n", highlight.title, figure, names);
 }

@@ -2,6 +2,7 @@
 #include "app/report/html_sections.h"
 #include "app/report/html_text.h"
 
+#include <algorithm>
 #include <fmt/core.h>
 
 namespace lodestone {
@@ -46,16 +47,20 @@ std::string choices(const std::vector<const ComparisonRow*>& rows, char side, st
     return text + "</fieldset>\n";
 }
 
-// Of the algorithms: what is worth a look first. The original where there is none.
-std::size_t smallestFile(const std::vector<const ComparisonRow*>& rows) {
-    std::size_t smallest = rows.size() > 1 ? 1 : 0;
-    for (std::size_t i = 1; i < rows.size(); ++i)
-        if (rows[i]->outcome.bytes < rows[smallest]->outcome.bytes)
-            smallest = i;
-    return smallest;
+// Of the shown algorithms: whose picture is closest. The original where there is none.
+std::size_t closestPicture(const Comparison& comparison,
+                           const std::vector<const ComparisonRow*>& shown) {
+    std::size_t closest = 0;
+    for (const ComparisonRow* row : competingRows(comparison)) {
+        const auto at = static_cast<std::size_t>(std::ranges::find(shown, row) - shown.begin());
+        if (at < shown.size() && row->image &&
+            (closest == 0 || row->image->flip < shown[closest]->image->flip))
+            closest = at;
+    }
+    return closest;
 }
 
-std::string stage(const std::vector<const ComparisonRow*>& rows) {
+std::string stage(const Comparison& comparison, const std::vector<const ComparisonRow*>& rows) {
     return fmt::format(
         R"(<div id="stage" class="stage" hidden="hidden">
 <div class="view" id="view" tabindex="0" role="group" aria-label="Two pictures over each other. Left and right arrow move the divider, space swaps the pictures, plus and minus zoom, zero shows all.">
@@ -75,7 +80,7 @@ std::string stage(const std::vector<const ComparisonRow*>& rows) {
 </div>
 )",
         choices(rows, 'A', 0),
-        choices(rows, 'B', smallestFile(rows)));
+        choices(rows, 'B', closestPicture(comparison, rows)));
 }
 
 } // namespace
@@ -89,7 +94,7 @@ std::string picturesSection(const Comparison& comparison) {
         return text +
                fmt::format("<p class=\"missing\">There are no pictures: {}.</p>\n</section>\n",
                            escaped(comparison.pictures_missing));
-    text += stage(rows) + "<div class=\"pictures\">\n";
+    text += stage(comparison, rows) + "<div class=\"pictures\">\n";
     for (std::size_t i = 0; i < rows.size(); ++i)
         text += figureOf(comparison, *rows[i], i);
     return text + "</div>\n</section>\n";

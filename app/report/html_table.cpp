@@ -26,10 +26,9 @@ std::string bestOf(const Comparison& comparison, const Column& column) {
     if (column.better == Better::Neither)
         return {};
     std::vector<double> values;
-    for (const ComparisonRow& row : comparison.rows)
-        if (!row.failed())
-            if (const std::optional<double> value = column.value(row))
-                values.push_back(*value);
+    for (const ComparisonRow* row : competingRows(comparison))
+        if (const std::optional<double> value = column.value(*row))
+            values.push_back(*value);
     if (values.size() < 2)
         return {};
     const auto [least, most] = std::ranges::minmax(values);

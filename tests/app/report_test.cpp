@@ -296,6 +296,20 @@ TEST(ComparisonPage, TextOfTheFileCannotBecomeMarkup) {
     EXPECT_EQ(countOf(page, "]]>"), 2u); // the ends of style and script
 }
 
+TEST(ComparisonPage, WhatMissedItsTargetIsBestAtNothing) {
+    Comparison comparison = comparisonOf(1120);
+    ComparisonRow above = comparison.rows[0];
+    above.outcome.target_met = false;
+    above.outcome.bytes /= 2;
+    comparison.rows.push_back(std::move(above));
+    ASSERT_EQ(competingRows(comparison).size(), 1u);
+    EXPECT_EQ(competingRows(comparison)[0], &comparison.rows[0]);
+    EXPECT_EQ(countOf(comparisonPage(comparison), "class=\"best\""), 0u);
+    comparison.rows[0].outcome.target_met = false;
+    EXPECT_EQ(competingRows(comparison).size(), 2u);
+    EXPECT_GE(countOf(comparisonPage(comparison), "class=\"best\""), 1u);
+}
+
 TEST(ComparisonPage, AWrongPredictionIsShownAsOne) {
     Comparison comparison = comparisonOf(1120);
     EXPECT_EQ(countOf(comparisonPage(comparison), "✗"), 0u);
