@@ -9,20 +9,16 @@ namespace lodestone {
 
 struct ByteModel::Impl {
     Impl(ScenePtr from, const ExportOptions& options)
-        : scene(std::move(from)), ranges(instanceRanges(*scene)) {
-        storages.push_back(planStorage(*scene, options));
-        for (Storage& storage : planExpandedStorages(*scene, storages.front()))
-            storages.push_back(std::move(storage));
+        : scene(std::move(from)), storage(*scene, options), ranges(instanceRanges(*scene)) {
         if (expansion())
             findMergedParts();
         if (isPacked(options))
             learnPacking();
     }
 
-    const ExportPlan& plan() const { return *storages.front().plan; }
+    const ExportPlan& plan() const { return storage.plan(); }
 
-    // Instancing::Expand only.
-    const std::optional<Expansion>& expansion() const { return storages.front().expansion; }
+    const Expansion* expansion() const { return storage.replacement(); }
 
     void learnPacking() {
         packing.emplace();
@@ -46,11 +42,10 @@ struct ByteModel::Impl {
     }
 
     std::uint64_t bytesOf(const LodShape& shape) const {
-        const ChosenStorage chosen = smallestStorage(storages, *scene, shape);
+        const StoredShape stored = storage.smallest(shape);
         if (!packing)
-            return chosen.stored.bytes;
-        return static_cast<std::uint64_t>(
-            packing->estimate(exportBytes(plan(), chosen.stored.layout)));
+            return stored.bytes;
+        return static_cast<std::uint64_t>(packing->estimate(exportBytes(plan(), stored.layout)));
     }
 
     double packed(ExportBytes::Part part, double bytes) const {
@@ -93,7 +88,7 @@ struct ByteModel::Impl {
     }
 
     ScenePtr scene;
-    std::vector<Storage> storages; // those of Instancing::Auto that expand come after the first
+    StoragePlan storage;
     std::optional<PackedSizes> packing; // Meshopt and Draco
     std::vector<InstanceRange> ranges;
     std::vector<std::vector<std::uint32_t>> merged_part; // [submeshes][primitives] in the skeleton

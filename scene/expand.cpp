@@ -51,19 +51,29 @@ bool canMerge(const Scene& scene, const Instance& instance) {
     return !node.animated && node.skin == kNone;
 }
 
-void planInstanceRoles(Expansion& expansion, const Scene& scene, const std::vector<bool>& wanted) {
+// mergeable: [scene.submeshes]
+void planInstanceRoles(Expansion& expansion,
+                       const Scene& scene,
+                       const std::vector<bool>& mergeable) {
     expansion.merges.assign(scene.instances.size(), false);
-    std::vector<bool> mergeable;
-    for (std::size_t s = 0; s < scene.submeshes.size(); ++s)
-        mergeable.push_back(wanted[s] && canMerge(scene.submeshes[s]));
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
         expansion.merges[i] = mergeable[instance.submesh] && canMerge(scene, instance);
     }
 }
 
-// Submeshes that keep an instance, or never had one, stay apart.
-void planSubmeshes(Expansion& expansion, const Scene& scene) {
+// Whether what merges leaves the scene.
+enum class Originals : std::uint8_t { Go, Stay };
+
+std::string groupName(const Scene& scene, const ExpandGroup& group) {
+    const std::uint32_t first = group.parts.front().submesh;
+    if (group.parts.size() == 1 && scene.submeshes[first].primitives.size() == 1)
+        return scene.submeshes[first].name;
+    return group.material == kNone ? "no material" : scene.materials[group.material].name;
+}
+
+// Submeshes that keep an instance, or never had one, stay apart in any case.
+void planSubmeshes(Expansion& expansion, const Scene& scene, Originals originals) {
     const std::vector<InstanceRange> ranges = instanceRanges(scene);
     Scene& skeleton = *expansion.skeleton;
     std::map<GroupKey, std::size_t> group_of;
@@ -75,7 +85,7 @@ void planSubmeshes(Expansion& expansion, const Scene& scene) {
             any_merges |= expansion.merges[i];
             all_merge &= expansion.merges[i];
         }
-        if (!all_merge) {
+        if (!all_merge || originals == Originals::Stay) {
             expansion.apart.push_back(s);
             skeleton.submeshes.push_back(scene.submeshes[s]);
         }
@@ -86,9 +96,6 @@ void planSubmeshes(Expansion& expansion, const Scene& scene) {
             if (is_new) {
                 expansion.groups.push_back({primitive.material, {}});
                 Submesh submesh;
-                submesh.name = primitive.material == kNone
-                                   ? "no material"
-                                   : scene.materials[primitive.material].name;
                 submesh.primitives.push_back({});
                 submesh.primitives[0].geometry = emptyLike(*primitive.geometry);
                 submesh.primitives[0].material = primitive.material;
@@ -97,6 +104,8 @@ void planSubmeshes(Expansion& expansion, const Scene& scene) {
             expansion.groups[found->second].parts.push_back({s, p});
         }
     }
+    for (std::size_t g = 0; g < merged.size(); ++g)
+        merged[g].name = groupName(scene, expansion.groups[g]);
     expansion.first_merged = static_cast<std::uint32_t>(skeleton.submeshes.size());
     std::ranges::move(merged, std::back_inserter(skeleton.submeshes));
 }
@@ -262,6 +271,24 @@ void countLod(Lod& lod) {
 
 } // namespace
 
+namespace {
+
+// A skeleton with what no expansion touches.
+Expansion beginExpansion(const Scene& scene) {
+    Expansion expansion;
+    expansion.skeleton = std::make_shared<Scene>();
+    Scene& skeleton = *expansion.skeleton;
+    skeleton.name = scene.name;
+    skeleton.materials = scene.materials;
+    skeleton.images = scene.images;
+    skeleton.cameras = scene.cameras;
+    skeleton.file_bytes = scene.file_bytes;
+    skeleton.notes = scene.notes;
+    return expansion;
+}
+
+} // namespace
+
 std::vector<bool> mergingSubmeshes(const Scene& scene) {
     std::vector<bool> merging;
     for (const Submesh& submesh : scene.submeshes)
@@ -273,22 +300,21 @@ std::vector<bool> mergingSubmeshes(const Scene& scene) {
 }
 
 Expansion planExpansion(const Scene& scene) {
-    return planExpansion(scene, std::vector<bool>(scene.submeshes.size(), true));
+    Expansion expansion = beginExpansion(scene);
+    std::vector<bool> mergeable;
+    for (const Submesh& submesh : scene.submeshes)
+        mergeable.push_back(canMerge(submesh));
+    planInstanceRoles(expansion, scene, mergeable);
+    planSubmeshes(expansion, scene, Originals::Go);
+    expandDocument(expansion, scene);
+    return expansion;
 }
 
-Expansion planExpansion(const Scene& scene, const std::vector<bool>& wanted) {
-    Expansion expansion;
-    expansion.skeleton = std::make_shared<Scene>();
-    Scene& skeleton = *expansion.skeleton;
-    skeleton.name = scene.name;
-    skeleton.materials = scene.materials;
-    skeleton.images = scene.images;
-    skeleton.cameras = scene.cameras;
-    skeleton.file_bytes = scene.file_bytes;
-    skeleton.notes = scene.notes;
-    planInstanceRoles(expansion, scene, wanted);
-    planSubmeshes(expansion, scene);
-    expandDocument(expansion, scene);
+Expansion planBesides(const Scene& scene) {
+    Expansion expansion = beginExpansion(scene);
+    planInstanceRoles(expansion, scene, mergingSubmeshes(scene));
+    planSubmeshes(expansion, scene, Originals::Stay);
+    extendDocument(expansion, scene);
     return expansion;
 }
 

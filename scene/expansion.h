@@ -29,11 +29,13 @@ struct Expansion {
 };
 
 // Static triangle meshes without morph targets merge per material and set of attributes; whatever
-// is skinned or moves, points and lines stay apart. O(instances + document).
+// is skinned or moves, points and lines stay apart. A group of one submesh with nothing else bears
+// its name, others that of their material. O(instances + document).
 Expansion planExpansion(const Scene& scene);
-// The same of some submeshes alone; the others stay apart with all their instances.
-// wanted: [scene.submeshes].
-Expansion planExpansion(const Scene& scene, const std::vector<bool>& wanted);
+
+// The scene as it is, and after its submeshes and instances the merged ones in which those of
+// mergingSubmeshes() can be drawn instead: all stay apart, and as they were numbered.
+Expansion planBesides(const Scene& scene);
 
 // Submeshes of which every instance would merge. [scene.submeshes]
 std::vector<bool> mergingSubmeshes(const Scene& scene);
@@ -61,5 +63,7 @@ void appendTransformed(Geometry& to,
 // The document of the expanded scene: nodes that only drew merged instances are gone, one node for
 // each group is added. Fills the skeleton's source, nodes and instances.
 void expandDocument(Expansion& expansion, const Scene& scene);
+// The same without taking anything out.
+void extendDocument(Expansion& expansion, const Scene& scene);
 
 } // namespace lodestone

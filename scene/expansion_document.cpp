@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <numeric>
 
 namespace lodestone {
 
@@ -15,17 +16,25 @@ class DocumentExpander {
 public:
     DocumentExpander(Expansion& expansion, const Scene& scene)
         : expansion_(expansion), scene_(scene), skeleton_(*expansion.skeleton),
-          document_(std::make_shared<SourceDocument>(*scene.source)) {}
+          document_(std::make_shared<SourceDocument>(*scene.source)) {
+        for (const char* list : {"nodes", "meshes"})
+            if (!document_->json.contains(list))
+                document_->json[list] = json::array();
+    }
 
     void expand() {
-        json& root = document_->json;
-        if (!root.contains("nodes"))
-            root["nodes"] = json::array();
         detachMergedMeshes();
         renumberMeshes();
         dropEmptyNodes();
-        addMergedNodes();
-        skeleton_.source = std::move(document_);
+        addMerged();
+    }
+
+    void extend() {
+        skeleton_.nodes = scene_.nodes;
+        skeleton_.instances = scene_.instances;
+        expansion_.new_index.resize(scene_.instances.size());
+        std::iota(expansion_.new_index.begin(), expansion_.new_index.end(), 0U);
+        addMerged();
     }
 
 private:
@@ -58,7 +67,7 @@ private:
         }
     }
 
-    // Meshes that something still draws, then one for each group.
+    // Meshes that something still draws.
     void renumberMeshes() {
         json& root = document_->json;
         const std::size_t count = root.contains("meshes") ? root["meshes"].size() : 0;
@@ -81,6 +90,12 @@ private:
         document_->mesh_of_submesh.clear();
         for (const std::uint32_t s : expansion_.apart)
             document_->mesh_of_submesh.push_back(number[scene_.source->mesh_of_submesh[s]]);
+        root["meshes"] = std::move(meshes);
+    }
+
+    // A mesh for each group.
+    void addMergedMeshes() {
+        json& meshes = document_->json["meshes"];
         for (std::size_t s = expansion_.first_merged; s < skeleton_.submeshes.size(); ++s) {
             const Submesh& submesh = skeleton_.submeshes[s];
             json primitive = json::object();
@@ -92,7 +107,6 @@ private:
             document_->mesh_of_submesh.push_back(static_cast<std::uint32_t>(meshes.size()));
             meshes.push_back(std::move(mesh));
         }
-        root["meshes"] = std::move(meshes);
     }
 
     // Nodes that lost what they drew, and parents that are left without children by that.
@@ -237,6 +251,12 @@ private:
         }
     }
 
+    void addMerged() {
+        addMergedMeshes();
+        addMergedNodes();
+        skeleton_.source = std::move(document_);
+    }
+
     void addMergedNodes() {
         json& root = document_->json;
         const auto found = root.find("scene");
@@ -269,6 +289,10 @@ private:
 
 void expandDocument(Expansion& expansion, const Scene& scene) {
     DocumentExpander(expansion, scene).expand();
+}
+
+void extendDocument(Expansion& expansion, const Scene& scene) {
+    DocumentExpander(expansion, scene).extend();
 }
 
 } // namespace lodestone

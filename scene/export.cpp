@@ -144,11 +144,6 @@ ExportReport reportOf(const ExportPlan& plan, const Layout& layout, const LodSha
     return report;
 }
 
-struct Target {
-    fs::path path;
-    ExportOptions options;
-};
-
 // plan, layout and lod must outlive the content.
 Result<Content>
 contentOf(const ExportPlan& plan, const Layout& layout, const Lod& lod, const fs::path& path) {
@@ -176,56 +171,48 @@ contentOf(const ExportPlan& plan, const Layout& layout, const Lod& lod, const fs
                    }};
 }
 
-// Bounds of every submesh of the scene, wider where the LOD leaves the grid they give.
-std::vector<PositionGrid>
-gridsFor(const Scene& scene, const Lod& lod, const ExportOptions& options, const Bounds& merged) {
-    std::vector<Bounds> bounds = submeshBounds(scene, merged);
-    std::vector<PositionGrid> grids = planGrids(scene, options.compression, bounds);
+// Another plan where the LOD leaves the grids of the given one, wide enough for it; else null.
+// bounds: of the submeshes, that gave the grids.
+std::unique_ptr<const ExportPlan>
+widerPlan(const ExportPlan& plan, std::vector<Bounds> bounds, const Lod& lod) {
+    if (plan.options.compression == Compression::None)
+        return nullptr;
     bool leaves = false;
-    for (std::size_t s = 0; s < grids.size(); ++s) {
+    for (std::size_t s = 0; s < plan.grids.size(); ++s) {
         Bounds reached;
         for (const GeometryPtr& geometry : lod.submeshes[s].primitives)
             for (const glm::vec3& position : geometry->positions)
                 reached.add(glm::dvec3(position));
-        if (covers(grids[s], reached))
+        if (covers(plan.grids[s], reached))
             continue;
         bounds[s].add(reached.min);
         bounds[s].add(reached.max);
         leaves = true;
     }
-    return leaves ? planGrids(scene, options.compression, bounds) : grids;
+    if (!leaves)
+        return nullptr;
+    return std::make_unique<const ExportPlan>(
+        plan.scene, plan.options, planGrids(plan.scene, plan.options.compression, bounds));
 }
 
-Result<ExportReport> writeScene(const Scene& scene,
+Result<ExportReport> writeScene(const ExportPlan& plan,
                                 const Lod& lod,
-                                const LodShape& shape,
-                                const Target& target,
-                                const Bounds& merged = {}) {
-    const ExportPlan plan(scene, target.options, gridsFor(scene, lod, target.options, merged));
-    const Layout layout = chooseLayout(plan, shape);
-    const Result<Content> content = contentOf(plan, layout, lod, target.path);
+                                const StoredShape& stored,
+                                const fs::path& path) {
+    const Result<Content> content = contentOf(plan, stored.layout, lod, path);
     if (!content)
         return tl::unexpected(content.error());
-    const Result<void> done = target.options.container == Container::Gltf
-                                  ? writeGltf(target.path, plan.image_files, *content)
-                                  : writeGlb(target.path, *content);
+    const Result<void> done = plan.options.container == Container::Gltf
+                                  ? writeGltf(path, plan.image_files, *content)
+                                  : writeGlb(path, *content);
     if (!done)
         return tl::unexpected(done.error());
-    ExportReport report = reportOf(plan, layout, shape);
+    ExportReport report = reportOf(plan, stored.layout, stored.shape);
     report.bytes = bytesOf(plan, *content);
     if (content->dropped_triangles > 0)
         report.notes.push_back(std::to_string(content->dropped_triangles) +
                                " triangles with two equal corners left out: Draco has none");
     return report;
-}
-
-Storage chooseStorage(const Scene& scene, const LodShape& shape, const ExportOptions& options) {
-    std::vector<Storage> storages;
-    storages.push_back(planStorage(scene, options));
-    if (mayExpand(shape))
-        for (Storage& storage : planExpandedStorages(scene, storages.front()))
-            storages.push_back(std::move(storage));
-    return std::move(storages[smallestStorage(storages, scene, shape).storage]);
 }
 
 // What Instancing::Auto has chosen.
@@ -259,20 +246,19 @@ Result<ExportReport> exportScene(const Scene& scene,
     ExportOptions used = options;
     used.container = isGltfPath(path, options.container) ? Container::Gltf : Container::Glb;
     const LodShape shape = shapeOf(scene, lod);
-    const Storage storage = chooseStorage(scene, shape, used);
-    if (!storage.expansion)
-        return writeScene(scene, lod, shape, {path, used});
-    Result<Lod> expanded = expandLod(*storage.expansion, scene, lod, {});
-    if (!expanded)
-        return tl::unexpected(expanded.error());
-    const Bounds merged = used.compression == Compression::None ? Bounds{} : worldBounds(scene);
-    Result<ExportReport> report = writeScene(storage.writtenScene(),
-                                             *expanded,
-                                             expandShape(*storage.expansion, scene, shape),
-                                             {path, used},
-                                             merged);
-    if (report && used.instancing == Instancing::Auto)
-        report->notes.push_back(storageNote(scene, shape, storage.expanded));
+    const StoragePlan storage(scene, used);
+    StoredShape stored = storage.smallest(shape);
+    const Result<Lod> written = storage.storedLod(lod, stored.way);
+    if (!written)
+        return tl::unexpected(written.error());
+    const std::unique_ptr<const ExportPlan> wider =
+        widerPlan(storage.plan(), storage.bounds(), *written);
+    if (wider)
+        stored.layout = chooseLayout(*wider, stored.shape);
+    Result<ExportReport> report =
+        writeScene(wider ? *wider : storage.plan(), *written, stored, path);
+    if (report && stored.way > 0)
+        report->notes.push_back(storageNote(scene, shape, storage.expanded(stored.way)));
     return report;
 }
 

@@ -187,7 +187,7 @@ Result<std::span<const std::byte>> AccessorReader::view(std::size_t index) const
     const json& view = listOf(document_.json, "bufferViews")[index];
     const std::string name = "buffer view " + std::to_string(index);
     const std::uint64_t buffer_index = *unsignedMember(view, "buffer");
-    const std::vector<std::byte>& buffer = document_.buffers[buffer_index];
+    const std::vector<std::byte>& buffer = (*document_.buffers)[buffer_index];
     const std::uint64_t offset = unsignedMember(view, "byteOffset").value_or(0);
     const std::uint64_t length = *unsignedMember(view, "byteLength");
     if (offset > buffer.size() || length > buffer.size() - offset)

@@ -75,7 +75,7 @@ bool decode(const CompressedView& view) {
 class Decompressor {
 public:
     explicit Decompressor(const ReadContext& context)
-        : document_(context.document.json), buffers_(context.document.buffers),
+        : document_(context.document.json), buffers_(*context.document.buffers),
           filled_(buffers_.size(), false) {}
 
     // Buffers without bytes of their own get room, as far as the compressed bytes warrant it.

@@ -114,7 +114,7 @@ Result<void> readBuffers(const ReadContext& context, GltfContainer& container) {
         Result<std::vector<std::byte>> bytes = readBuffer(context, buffers[b], b, container);
         if (!bytes)
             return context.bad("buffer " + std::to_string(b) + ": " + bytes.error().message);
-        context.document.buffers.push_back(std::move(*bytes));
+        context.document.buffers->push_back(std::move(*bytes));
     }
     return {};
 }

@@ -4,6 +4,7 @@
 #include "scene/scene.h"
 
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 namespace lodestone {
@@ -20,7 +21,9 @@ namespace lodestone {
 //    in Scene::images[i].bytes and are to be embedded.
 struct SourceDocument { // NOLINT(bugprone-exception-escape): json moves without throwing
     nlohmann::json json;
-    std::vector<std::vector<std::byte>> buffers; // [json.buffers] resolved bytes of each
+    // [json.buffers] resolved bytes of each; copies of a document share them.
+    std::shared_ptr<std::vector<std::vector<std::byte>>> buffers =
+        std::make_shared<std::vector<std::vector<std::byte>>>();
     std::filesystem::path folder;                // where external files lie
     std::vector<std::uint32_t> mesh_of_submesh;  // [scene.submeshes] index into json.meshes
     std::vector<std::uint32_t> node_of_node;     // [scene.nodes] index into json.nodes

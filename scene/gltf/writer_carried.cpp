@@ -51,9 +51,9 @@ std::span<const std::byte> viewBytes(const SourceDocument& source, std::uint64_t
     const std::uint64_t buffer = numberOr(view, "buffer", ~0ULL);
     const std::uint64_t offset = numberOr(view, "byteOffset", 0);
     const std::uint64_t length = numberOr(view, "byteLength", 0);
-    if (buffer >= source.buffers.size())
+    if (buffer >= source.buffers->size())
         return {};
-    const std::vector<std::byte>& bytes = source.buffers[buffer];
+    const std::vector<std::byte>& bytes = (*source.buffers)[buffer];
     if (offset > bytes.size() || length > bytes.size() - offset)
         return {};
     return std::span(bytes).subspan(offset, length);

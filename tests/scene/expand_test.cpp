@@ -30,6 +30,13 @@ TEST(Expand, MergesPerMaterialAndNamesAfterIt) {
     EXPECT_EQ(flat->submeshes[1].primitives[0].material, 1U);
 }
 
+TEST(Expand, ASubmeshThatNothingJoinsKeepsItsName) {
+    const ScenePtr scene = fixtures::cubeRowScene(4);
+    const ScenePtr flat = expanded(scene);
+    ASSERT_EQ(flat->submeshes.size(), 1U);
+    EXPECT_EQ(flat->submeshes[0].name, scene->submeshes[0].name);
+}
+
 TEST(Expand, FaceAndVertexNormalsStayOutwardUnderShearMirrorAndFlattening) {
     const ScenePtr flat = expanded(fixtures::awkwardInstancesScene());
     const Geometry& geometry = *flat->submeshes[0].primitives[0].geometry;
