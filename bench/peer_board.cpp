@@ -54,8 +54,11 @@ std::string flipText(double flip) {
     return std::isfinite(flip) ? fmt::format("{:.4f}", flip) : "–";
 }
 
-std::string secondsCell(const Spread& seconds) {
-    return seconds.median > 0.0 ? secondsText(seconds) : "–";
+// Time, and that over ours. Another order of ours comes from the same sequences.
+std::string timeCells(const PeerRow& row) {
+    if (row.kind == PeerKind::Ours)
+        return "the same sequences | 1";
+    return secondsText(row.seconds) + " | " + ratioText(kMeasures[0].ratio(row));
 }
 
 // The row of ours that all others are compared with.
@@ -78,21 +81,19 @@ std::string peerLine(const PeerRow& row) {
     const std::string name = row.name + (row.kind == PeerKind::Program ? " (process)" : "");
     if (!row.failure.empty())
         return fmt::format("| {} | failed: {} | | | | | | | | | | | |\n", name, row.failure);
-    return fmt::format(
-        "| {} | {} | {} | {} | {} | {} | {} | {:.4f} | {} | {:.4f} | {} | {} | {} |\n",
-        name,
-        secondsCell(row.seconds),
-        ratioText(kMeasures[0].ratio(row)),
-        countText(row.theirs.triangles),
-        countText(row.theirs.instances),
-        bytesText(row.theirs),
-        ratioText(kMeasures[1].ratio(row)),
-        row.theirs.maximum,
-        ratioText(kMeasures[2].ratio(row)),
-        row.theirs.mean,
-        ratioText(kMeasures[3].ratio(row)),
-        flipText(row.theirs.flip),
-        ratioText(kMeasures[4].ratio(row)));
+    return fmt::format("| {} | {} | {} | {} | {} | {} | {:.4f} | {} | {:.4f} | {} | {} | {} |\n",
+                       name,
+                       timeCells(row),
+                       countText(row.theirs.triangles),
+                       countText(row.theirs.instances),
+                       bytesText(row.theirs),
+                       ratioText(kMeasures[1].ratio(row)),
+                       row.theirs.maximum,
+                       ratioText(kMeasures[2].ratio(row)),
+                       row.theirs.mean,
+                       ratioText(kMeasures[3].ratio(row)),
+                       flipText(row.theirs.flip),
+                       ratioText(kMeasures[4].ratio(row)));
 }
 
 std::string ourLine(const PeerRow& row) {
