@@ -1,6 +1,5 @@
 #include "render/gl_context.h"
 
-#include "render/gl.h"
 #include "render/gl_info.h"
 
 #include <EGL/egl.h>
@@ -72,9 +71,7 @@ public:
             return tl::unexpected(eglError("create an OpenGL 3.3 core context"));
         if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) != EGL_TRUE)
             return tl::unexpected(eglError("make a context current without a surface"));
-        if (!loadGl(eglGetProcAddress))
-            return fail(ErrorKind::Failed, "OpenGL functions cannot be loaded; check the driver");
-        Result<GlInfo> info = queryGlInfo();
+        Result<GlInfo> info = loadContext(eglGetProcAddress);
         if (!info)
             return tl::unexpected(info.error());
         info_ = *info;
@@ -108,7 +105,9 @@ private:
 
 } // namespace
 
-Result<GlInfo> queryGlInfo() {
+Result<GlInfo> loadContext(GlProcLookup lookup) {
+    if (!loadGl(lookup))
+        return fail(ErrorKind::Failed, "OpenGL functions cannot be loaded; check the driver");
     GlInfo info;
     info.renderer = glString(GL_RENDERER);
     info.version = glString(GL_VERSION);

@@ -1,10 +1,12 @@
 #pragma once
 // Inside render/ only.
+#include "render/gl.h"
 #include "render/gl_context.h"
 
 namespace lodestone {
 
-// Asks the current context. Errors: Failed when it is older than 3.3.
-Result<GlInfo> queryGlInfo();
+// Loads the functions for the current context and asks what it is. Errors: Failed when the driver
+// lacks OpenGL or it is older than 3.3.
+Result<GlInfo> loadContext(GlProcLookup lookup);
 
 } // namespace lodestone

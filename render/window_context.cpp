@@ -1,4 +1,3 @@
-#include "render/gl.h"
 #include "render/gl_context.h"
 #include "render/gl_info.h"
 
@@ -55,9 +54,7 @@ public:
                             "; update the graphics driver");
         glfwMakeContextCurrent(window_);
         glfwSwapInterval(options.vsync == VerticalSync::On ? 1 : 0);
-        if (!loadGl(glfwGetProcAddress))
-            return fail(ErrorKind::Failed, "OpenGL functions cannot be loaded; check the driver");
-        Result<GlInfo> info = queryGlInfo();
+        Result<GlInfo> info = loadContext(glfwGetProcAddress);
         if (!info)
             return tl::unexpected(info.error());
         info_ = *info;
