@@ -8,7 +8,7 @@ namespace lodestone {
 
 namespace {
 
-constexpr double kQuickMs = 40.0; // a lane that draws in this time needs no draft
+constexpr double kQuickMs = 25.0; // what a frame has for pictures: needs no draft
 constexpr double kDraftMs = 12.0; // what a draft may cost: three lanes in 36 ms
 constexpr double kFewestTriangles = 500.0;
 

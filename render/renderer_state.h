@@ -2,6 +2,7 @@
 // Inside render/ only: what Renderer shares among its scenes and views.
 #include "render/gl_object.h"
 #include "render/renderer.h"
+#include "render/slice_pace.h"
 #include "scene/scene.h"
 
 #include <cstdint>
@@ -108,6 +109,8 @@ public:
 
     std::uint64_t nextRevision() { return ++revision_; }
 
+    SlicePace& slicePace() { return slice_pace_; } // of all views: they share the processor
+
 private:
     GlInfo info_;
     std::unordered_map<std::uint32_t, SceneProgram> programs_;
@@ -121,6 +124,7 @@ private:
     GlBuffer frame_;
     GLint uniform_alignment_ = 256;
     std::uint64_t revision_ = 0;
+    SlicePace slice_pace_;
 };
 
 } // namespace lodestone

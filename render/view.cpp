@@ -50,8 +50,7 @@ PictureKey keyOf(const View::Input& input) {
 // 2 x 2 as large costs 0.1 s at 640 x 480: from this count on the latter is cheaper.
 constexpr std::uint64_t kSupersampledTriangles = 100'000;
 
-// One slice of a picture that is drawn over several calls: some 15 ms on llvmpipe.
-constexpr std::uint64_t kSliceTriangles = 150'000;
+constexpr double kShortestSliceMs = 2.0; // less time is left for the next call
 constexpr std::uint64_t kEveryTriangle = std::numeric_limits<std::uint64_t>::max();
 
 Antialiasing chooseAntialiasing(const View::Input& input, const GlInfo& info) {
@@ -209,21 +208,27 @@ Result<DrawTotals> ViewState::render(const View::Input& input) {
     return totals;
 }
 
-// At least one slice; stops once the budget is spent or everything is drawn.
+// At least one slice; stops once the budget is as good as spent or everything is drawn.
 Result<DrawTotals>
 ViewState::drawSlices(const View::Input& input, DrawCursor& cursor, double budget_ms) {
     const Clock::time_point begun = Clock::now();
     glBindFramebuffer(GL_FRAMEBUFFER, drawn_.name());
     glViewport(0, 0, size_.width_px * antialiasing_.scale, size_.height_px * antialiasing_.scale);
+    SlicePace& pace = renderer_->slicePace();
     DrawTotals all;
+    double spent_ms = 0.0;
     do {
-        const Result<DrawTotals> slice = drawLod(input, antialiasing_, cursor, kSliceTriangles);
+        const std::uint64_t most = pace.trianglesWithin(budget_ms - spent_ms);
+        const Result<DrawTotals> slice = drawLod(input, antialiasing_, cursor, most);
         if (!slice)
             return tl::unexpected(slice.error());
         all.triangles += slice->triangles;
         all.draw_calls += slice->draw_calls;
         glFinish();
-    } while (!cursor.finished && elapsedMs(begun) < budget_ms);
+        const double now_ms = elapsedMs(begun);
+        pace.drew(slice->triangles, now_ms - spent_ms);
+        spent_ms = now_ms;
+    } while (!cursor.finished && spent_ms + kShortestSliceMs < budget_ms);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     return all;
 }

@@ -175,6 +175,15 @@ bool ViewSet::isStale(const Item& item,
            item.options != optionsOf(wanted, options) || item.size != wanted.size;
 }
 
+// Nothing but the camera has changed since its first slice was drawn. It is finished as it was
+// begun, so that a picture of many slices is seen at all while the camera moves on.
+bool ViewSet::isUnderWay(const Item& item, const Wanted& wanted, const ViewOptions& options) {
+    return !item.complete && !item.shows_draft && !wanted.draft && item.full.lod == wanted.lod &&
+           item.scene == wanted.scene.get() && item.size == wanted.size &&
+           item.has_marks == (wanted.marked_lod != nullptr) &&
+           item.options == optionsOf(wanted, options);
+}
+
 Result<bool> ViewSet::drawItem(Item& item,
                                const Wanted& wanted,
                                const OrbitCamera& camera,
@@ -185,6 +194,8 @@ Result<bool> ViewSet::drawItem(Item& item,
         item.full = Item::Uploaded();
         item.draft = Item::Uploaded();
     }
+    if (!isUnderWay(item, wanted, options))
+        item.camera = camera;
     item.scene = wanted.scene.get();
     scene.setMoment(options.moment);
     Item::Uploaded& shown = wanted.draft ? item.draft : item.full;
@@ -195,12 +206,13 @@ Result<bool> ViewSet::drawItem(Item& item,
         shown.lod = lod;
     }
     item.shows_draft = wanted.draft != nullptr;
-    item.camera = camera;
     item.options = optionsOf(wanted, options);
     item.has_marks = wanted.marked_lod != nullptr;
     View::Input input = inputOf(item);
     input.size = wanted.size; // the item's is that of a complete picture
-    const Result<DrawReport> report = item.view.draw(input, budget_ms);
+    // Drafts are sized to be quick; in slices they would never be seen while the camera moves.
+    const Result<DrawReport> report =
+        item.view.draw(input, wanted.draft ? View::kNoBudget : budget_ms);
     if (!report)
         return tl::unexpected(report.error());
     item.size = wanted.size;
@@ -254,7 +266,7 @@ Result<std::vector<ViewSet::Picture>> ViewSet::draw(std::span<const Wanted> want
         const Result<bool> drawn = drawItem(item, wanted[at], camera, options, left_ms);
         if (!drawn)
             return tl::unexpected(drawn.error());
-        pictures[at].stale = !*drawn;
+        pictures[at].stale = !*drawn || isStale(item, wanted[at], camera, options);
         pictures[at].drew = *drawn;
     }
     for (Picture& picture : pictures)

@@ -44,7 +44,8 @@ public:
 
     // Draws stale pictures, cheap ones first and then the one that waits longest, until budget_ms
     // is spent; always goes on with at least one. Where the CPU draws, one that costs more than
-    // the budget is drawn over several calls, and starts again if it changes before it is done.
+    // the budget is drawn over several calls, and starts again if it changes before it is done;
+    // but if no more than the camera moves and there is no draft, it is finished first.
     // Scenes and LODs that take long to bring to the GPU are packed on another thread and copied in
     // pieces; until they are there, pictures stay as they are.
     // Lanes that are not wanted any more lose their pictures, scenes that no lane wants their GPU
@@ -116,6 +117,7 @@ private:
                         const Wanted& wanted,
                         const OrbitCamera& camera,
                         const ViewOptions& options);
+    static bool isUnderWay(const Item& item, const Wanted& wanted, const ViewOptions& options);
     void forgetUnwanted(std::span<const Wanted> wanted);
     // Returns whether the picture is complete.
     Result<bool> drawItem(Item& item,

@@ -43,11 +43,13 @@ public:
             if (host_.waitEvents(waitTime()))
                 settle_ = kSettlePasses;
             begun_ = Clock::now();
+            frame_times_.begin();
             window_.drop(host_.takeDroppedFiles(), commands_);
             if (host_.takeCloseRequest())
                 window_.askToQuit();
             if (session_.update(commands_))
                 settle_ = std::max(settle_, 1);
+            frame_times_.ended(FramePart::Session);
             const bool due = std::chrono::steady_clock::now() >= wake_at_;
             if (!host_.minimised() && (settle_ > 0 || pictures_.stale() || due))
                 drawFrame();
@@ -81,17 +83,21 @@ private:
         facts_.density = host_.density();
         host_.beginPass();
         window_.draw(facts_, pictures_.shown(), commands_);
+        frame_times_.ended(FramePart::Interface);
         bool again = session_.update(commands_);
         const Document& document = session_.document();
         if (document.scene && document.camera.distance <= 0.0) {
             commands_.push(FrameScene{});
             again = session_.update(commands_) || again;
         }
+        frame_times_.ended(FramePart::Session);
         again = pictures_.draw(session_, window_.views()) || again;
+        frame_times_.ended(FramePart::Pictures);
         if (again) { // numbers and pictures of this frame, not of the last one
             host_.discardPass();
             host_.beginPass();
             window_.draw(facts_, pictures_.shown(), commands_);
+            frame_times_.ended(FramePart::Interface);
         }
         clearWindow(
             {facts_.width_px, facts_.height_px, 0x14 / 255.0f, 0x17 / 255.0f, 0x1b / 255.0f});
@@ -103,8 +109,8 @@ private:
     void finishFrame() {
         session_.uiLog().frame(++facts_.frame);
         logPictures();
-        const std::chrono::duration<double, std::milli> time = Clock::now() - begun_;
-        if (const auto told = frame_times_.add(Clock::now(), time.count()))
+        frame_times_.ended(FramePart::Output);
+        if (const auto told = frame_times_.finish())
             session_.uiLog().object("frames", "frames", *told);
         if (!commands_.empty())
             settle_ = std::max(settle_, 2);

@@ -1,6 +1,7 @@
 // Pictures that are drawn over several calls.
 #include "render/gl_context.h"
 #include "render/renderer.h"
+#include "render/slice_pace.h"
 #include "render/view.h"
 #include "render/view_set.h"
 #include "scene/generate.h"
@@ -77,6 +78,60 @@ TEST_F(SlicesTest, AnotherCameraStartsThePictureAgain) {
     }
     ASSERT_TRUE(whole->draw(input));
     EXPECT_EQ(whole->readPixels()->rgba, sliced->readPixels()->rgba);
+}
+
+TEST_F(SlicesTest, APictureUnderWayIsFinishedWhileTheCameraMovesOn) {
+    ViewSet views(*renderer_);
+    const auto full = std::make_shared<const Lod>(fullLod(*scene_));
+    const std::vector<ViewSet::Wanted> wanted{{1, scene_, full, nullptr, kSize, {}}};
+    int calls = 0;
+    int pictures = 0;
+    bool stale = true;
+    OrbitCamera camera = camera_;
+    while (pictures < 2) {
+        orbitCamera(camera, 0.5, 0.0);
+        const auto drawn = views.draw(wanted, camera, {}, 0.0);
+        ASSERT_TRUE(drawn) << drawn.error().message;
+        pictures += drawn->front().drew ? 1 : 0;
+        stale = drawn->front().stale;
+        calls += drawn->front().on_its_way ? 0 : 1;
+        ASSERT_LT(calls, 2000);
+    }
+    EXPECT_GT(calls, 10) << "it was not drawn in slices";
+    EXPECT_TRUE(stale) << "the camera was elsewhere";
+    const auto finish = [&](ViewSet& set, double budget_ms) {
+        auto drawn = set.draw(wanted, camera, {}, budget_ms);
+        while (drawn && drawn->front().stale)
+            drawn = set.draw(wanted, camera, {}, budget_ms);
+        return drawn.has_value();
+    };
+    ViewSet at_once(*renderer_);
+    ASSERT_TRUE(finish(views, 0.0) && finish(at_once, 1e9));
+    EXPECT_EQ(views.readPixels(1)->rgba, at_once.readPixels(1)->rgba);
+}
+
+TEST(SlicePaceTest, SlicesShrinkAtOnceAndGrowByAndBy) {
+    SlicePace pace;
+    const std::uint64_t first = pace.trianglesWithin(SlicePace::kSliceMs);
+    EXPECT_EQ(first, SlicePace::kMost);
+    pace.drew(first, 8.0 * SlicePace::kSliceMs); // the machine is busy
+    const std::uint64_t busy = pace.trianglesWithin(SlicePace::kSliceMs);
+    EXPECT_EQ(busy, first / 8);
+    EXPECT_LT(pace.trianglesWithin(0.5 * SlicePace::kSliceMs), busy);
+    pace.drew(busy, 0.125 * SlicePace::kSliceMs); // it is not any more
+    const std::uint64_t more = pace.trianglesWithin(SlicePace::kSliceMs);
+    EXPECT_GT(more, busy);
+    EXPECT_LT(more, first);
+}
+
+TEST(SlicePaceTest, ThereIsAlwaysASliceAndNeverAHugeOne) {
+    SlicePace pace;
+    EXPECT_EQ(pace.trianglesWithin(-1.0), SlicePace::kFewest);
+    EXPECT_LE(pace.trianglesWithin(1e9), SlicePace::kMost);
+    pace.drew(SlicePace::kMost, 0.0); // as quick as a clock can tell
+    EXPECT_EQ(pace.trianglesWithin(1e9), SlicePace::kMost);
+    pace.drew(SlicePace::kMost, 1e9);
+    EXPECT_EQ(pace.trianglesWithin(1e9), SlicePace::kFewest);
 }
 
 TEST_F(SlicesTest, ADraftIsShownUntilItIsNoLongerWanted) {
