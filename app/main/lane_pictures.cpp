@@ -15,7 +15,7 @@ ImTextureID textureId(TextureHandle texture) {
 }
 
 constexpr double kPictureBudgetMs = 25.0;
-constexpr double kSoftwareMsPerTriangle = 0.0002; // llvmpipe on two cores
+constexpr double kSoftwareMsPerTriangle = 0.0004; // llvmpipe on two busy cores
 constexpr std::chrono::milliseconds kRest{150};   // no input for so long: refine
 
 } // namespace
