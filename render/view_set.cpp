@@ -230,6 +230,7 @@ Result<std::vector<ViewSet::Picture>> ViewSet::draw(std::span<const Wanted> want
                                                     const OrbitCamera& camera,
                                                     const ViewOptions& options,
                                                     double budget_ms) {
+    const auto begin = std::chrono::steady_clock::now();
     forgetUnwanted(wanted);
     if (const Result<void> advanced = advanceDelivery(wanted); !advanced)
         return tl::unexpected(advanced.error());
@@ -256,7 +257,6 @@ Result<std::vector<ViewSet::Picture>> ViewSet::draw(std::span<const Wanted> want
             queue.push_back({costOf(last, lane) > budget_ms, last.drawn_at, at});
     }
     std::sort(queue.begin(), queue.end());
-    const auto begin = std::chrono::steady_clock::now();
     for (std::size_t done = 0; done < queue.size(); ++done) {
         const std::size_t at = queue[done].place;
         Item& item = items_.at(wanted[at].key);

@@ -15,6 +15,7 @@ ImTextureID textureId(TextureHandle texture) {
 }
 
 constexpr double kPictureBudgetMs = 25.0;
+constexpr double kPicturesDoneMs = 45.0; // after the frame began; what is left is for its output
 constexpr double kSoftwareMsPerTriangle = 0.0004; // llvmpipe on two busy cores
 constexpr std::chrono::milliseconds kRest{150};   // no input for so long: refine
 
@@ -76,7 +77,11 @@ void LanePictures::addReference(const Document& document, std::vector<ViewSet::W
         {kNoLane, document.scene, fullOriginal(document), nullptr, wanted.front().size, {}});
 }
 
-bool LanePictures::draw(Session& session, std::span<const ui::ViewRequest> views) {
+bool LanePictures::draw(Session& session,
+                        std::span<const ui::ViewRequest> views,
+                        Clock::time_point frame_began) {
+    const std::chrono::duration<double, std::milli> passed = Clock::now() - frame_began;
+    const double budget_ms = std::clamp(kPicturesDoneMs - passed.count(), 0.0, kPictureBudgetMs);
     const Document& document = session.document();
     noteMotion(document);
     std::vector<ViewSet::Wanted> wanted = wantedPictures(document, views);
@@ -89,7 +94,7 @@ bool LanePictures::draw(Session& session, std::span<const ui::ViewRequest> views
     const auto drawn = pictures_.draw(wanted,
                                       orbitCamera(document.camera, document.bounds, view_aspect_),
                                       viewOptions(document.view, errorMapFull(document)),
-                                      kPictureBudgetMs);
+                                      budget_ms);
     if (!drawn) {
         session.reportError(drawn.error().message); // repeats are counted, not listed again
         return false;

@@ -19,8 +19,10 @@ public:
     LanePictures(const GlContext& context, const Renderer& renderer);
 
     // Goes on drawing what the views should show; tells the session what lanes cost and what went
-    // wrong. Returns whether any picture is another than before.
-    bool draw(Session& session, std::span<const ui::ViewRequest> views);
+    // wrong. The more of the frame has passed since it began, the less is drawn.
+    // Returns whether any picture is another than before.
+    bool
+    draw(Session& session, std::span<const ui::ViewRequest> views, Clock::time_point frame_began);
 
     std::span<const ui::LanePicture> shown() const { return shown_; }
 

@@ -91,7 +91,7 @@ private:
             again = session_.update(commands_) || again;
         }
         frame_times_.ended(FramePart::Session);
-        again = pictures_.draw(session_, window_.views()) || again;
+        again = pictures_.draw(session_, window_.views(), begun_) || again;
         frame_times_.ended(FramePart::Pictures);
         if (again) { // numbers and pictures of this frame, not of the last one
             host_.discardPass();
