@@ -25,7 +25,7 @@ constexpr double kShineStep = 1.25;
 constexpr DragKey kAnimationDrag = 0x414e494d45ull; // a whole animation is one undo step
 constexpr DragKey kStepDrag = 0x5354455053ull; // collapsing while a key is held is one undo step
 
-constexpr std::array<Shortcut, 37> kShortcuts = {{
+constexpr std::array<Shortcut, 38> kShortcuts = {{
     {"Left drag", "orbit (also Alt+left, middle)"},
     {"Right drag", "pan (also Shift+middle)"},
     {"Wheel", "zoom"},
@@ -59,6 +59,7 @@ constexpr std::array<Shortcut, 37> kShortcuts = {{
     {"Double click", "select all instances of the submesh"},
     {"Shift+click", "add to the selection, or take away"},
     {"Ctrl+drag", "select in a box; Shift adds"},
+    {"Drag a header", "move the lane to another view"},
     {"View > Mouse like", "drag as in Blender or Maya"},
     {"F1", "this sheet"},
     {"Esc", "cancel drag, dialog or job, then quit"},

@@ -1,9 +1,11 @@
+#include "ui/lane_reorder.h"
 #include "ui/lane_view.h"
 #include "ui/legend.h"
 #include "ui/widgets.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace lodestone::ui {
 
@@ -43,6 +45,30 @@ Cells arrange(int count, double width, double height, double bars_height) {
         }
     }
     return best;
+}
+
+// A cell without the hairlines that part it from those right of it and below it, which it draws.
+Area beginCell(const Ui& ui, const Area& grid, const Cells& cells, int at) {
+    const float line = ui.theme.hairline();
+    const int column = at % cells.columns;
+    const int row = at / cells.columns;
+    const auto corner = [&](int columns, int rows) {
+        return ImVec2{std::round(grid.position.x + grid.size.x * static_cast<float>(columns) /
+                                                       static_cast<float>(cells.columns)),
+                      std::round(grid.position.y + grid.size.y * static_cast<float>(rows) /
+                                                       static_cast<float>(cells.rows))};
+    };
+    const ImVec2 begin = corner(column, row);
+    ImVec2 end = corner(column + 1, row + 1);
+    if (column + 1 < cells.columns) {
+        end.x -= line;
+        verticalHairline(ui, end.x, begin.y, end.y);
+    }
+    if (row + 1 < cells.rows) {
+        end.y -= line;
+        horizontalHairline(ui, begin.x, end.x, end.y);
+    }
+    return {begin, end - begin};
 }
 
 // The lanes in view: the first few, moved along so that the active lane is among them.
@@ -98,6 +124,11 @@ void drawCell(
                 lane,
                 {{area.position.x, area.position.y + header}, {area.size.x, picture_height}});
     drawLaneHeader(named, input, state, lane, {area.position, {area.size.x, header}});
+    laneHandle(named,
+               input.document,
+               state,
+               lane,
+               {area.position, {area.size.x - ui.px(kLaneMenuWidth), header}});
     drawLaneFooter(named,
                    input.document,
                    lane,
@@ -108,32 +139,42 @@ void drawCell(
     ImGui::PopID();
 }
 
-// A cell without a lane: what could be there, in as many columns as its height asks for.
+// A cell without a lane: what could be there, in as many columns as its height asks for, each as
+// wide as its names.
 void drawFreeCell(const Ui& ui, const Area& area) {
-    const float line = ui.px(24);
-    const float margin = ui.px(16);
+    const float line = ui.px(21);
+    const float margin = ui.px(12);
+    const float gap = ui.px(20);
+    const float dot = ui.px(16);
     const std::span<const Algorithm> all = algorithms();
     const float height = area.size.y - 2 * margin;
     const auto rows = std::max<std::size_t>(1, static_cast<std::size_t>(height / line) - 1);
     const std::size_t columns = (all.size() + rows - 1) / rows;
     const std::size_t in_column = (all.size() + columns - 1) / columns;
-    const float wanted = columns == 1 ? ui.px(220) : area.size.x;
-    const float width = (std::min(wanted, area.size.x) - 2 * margin) / static_cast<float>(columns);
-    const float left = area.position.x + (area.size.x - width * static_cast<float>(columns)) * 0.5f;
+    const auto nameOf = [&](const Algorithm& algorithm) {
+        return columns == 1 ? algorithm.name : algorithm.short_name;
+    };
+    std::vector<float> widths(columns, 0.0f);
+    for (std::size_t at = 0; at < all.size(); ++at)
+        widths[at / in_column] =
+            std::max(widths[at / in_column], dot + textWidth(ui, nameOf(all[at])));
+    const float block =
+        std::accumulate(widths.begin(), widths.end(), gap * static_cast<float>(columns - 1));
+    float left = area.position.x + std::max(margin, (area.size.x - block) * 0.5f);
     const float top =
         area.position.y +
         std::max(margin, (area.size.y - line * static_cast<float>(in_column + 1)) * 0.5f);
     drawText(ui, {left, top}, Align::Left, "Add a lane", {nullptr, color::kSecondary});
     for (std::size_t at = 0; at < all.size(); ++at) {
-        const std::size_t column = at / in_column;
         const std::size_t row = at % in_column + 1;
-        const ImVec2 place{left + width * static_cast<float>(column),
-                           top + line * static_cast<float>(row)};
+        if (at > 0 && row == 1)
+            left += widths[at / in_column - 1] + gap;
+        const ImVec2 place{left, top + line * static_cast<float>(row)};
         ImGui::GetWindowDrawList()->AddCircleFilled(
             place + ImVec2(ui.px(4), ui.px(8)), ui.px(4), packed(laneColour(&all[at], 0)), 24);
-        ImGui::SetCursorScreenPos(place + ImVec2(ui.px(16), 0));
-        const std::string_view name = columns == 1 ? all[at].name : all[at].short_name;
-        if (linkButton(ui, fitText(ui, name, width - ui.px(24))))
+        ImGui::SetCursorScreenPos(place + ImVec2(dot, 0));
+        const float room = area.end().x - ui.px(4) - left - dot;
+        if (linkButton(ui, fitText(ui, nameOf(all[at]), room)))
             ui.push(AddLane{std::string(all[at].id)});
         tooltip(ui, all[at].summary);
     }
@@ -164,30 +205,17 @@ void drawLaneGrid(Ui ui, const PanelInput& input, WindowState& state, const Area
     const auto bars = static_cast<double>(ui.px(2 * kBarHeight));
     const Cells cells =
         arrange(count, static_cast<double>(area.size.x), static_cast<double>(area.size.y), bars);
-    const float line = ui.theme.hairline();
+    std::vector<LaneCell> shown;
     for (int at = 0; at < count && input.document.scene; ++at) {
-        const auto column = static_cast<float>(at % cells.columns);
-        const int row_index = at / cells.columns;
-        const auto row = static_cast<float>(row_index);
-        const ImVec2 step{area.size.x / static_cast<float>(cells.columns),
-                          area.size.y / static_cast<float>(cells.rows)};
-        const ImVec2 begin{std::round(area.position.x + column * step.x),
-                           std::round(area.position.y + row * step.y)};
-        const ImVec2 end{std::round(area.position.x + (column + 1) * step.x),
-                         std::round(area.position.y + (row + 1) * step.y)};
-        const Area cell{begin,
-                        end - begin -
-                            ImVec2(column + 1 < static_cast<float>(cells.columns) ? line : 0,
-                                   row + 1 < static_cast<float>(cells.rows) ? line : 0)};
-        if (static_cast<std::size_t>(at) < lanes.size())
-            drawCell(ui, input, state, *lanes[static_cast<std::size_t>(at)], cell);
+        const bool free = static_cast<std::size_t>(at) >= lanes.size();
+        const Lane* const lane = free ? nullptr : lanes[static_cast<std::size_t>(at)];
+        shown.push_back({lane ? lane->id : kNoLane, beginCell(ui, area, cells, at)});
+        if (lane)
+            drawCell(ui, input, state, *lane, shown.back().area);
         else
-            drawFreeCell(ui, cell);
-        if (column + 1 < static_cast<float>(cells.columns))
-            verticalHairline(ui, end.x - line, begin.y, end.y);
-        if (row + 1 < static_cast<float>(cells.rows))
-            horizontalHairline(ui, begin.x, end.x, end.y - line);
+            drawFreeCell(ui, shown.back().area);
     }
+    dragLane(ui, input.document, state, shown);
     endPanel();
     ImGui::PopStyleColor();
     ImGui::PopStyleVar();

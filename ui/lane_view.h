@@ -4,6 +4,8 @@
 
 namespace lodestone::ui {
 
+constexpr float kLaneMenuWidth = 30.0f; // at the right end of a header, in design pixels
+
 // Name, what sets the lane apart, its distances if they are measured, and its menu.
 void drawLaneHeader(
     const Ui& ui, const PanelInput& input, WindowState& state, const Lane& lane, const Area& area);

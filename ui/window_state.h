@@ -95,6 +95,7 @@ struct WindowState {
     bool quit = false;             // answered: really
     bool drag_moves_light = false; // a left drag in a view
     LaneId box_lane = kNoLane;     // in whose view a box is being dragged
+    LaneId moved_lane = kNoLane;   // whose header is being dragged
     Animation animation;
     Playback playback;
     ChartKind chart = ChartKind::Size;

@@ -227,6 +227,131 @@ def test_the_first_picture_is_soon_there(_):
         assert first <= quadric, "the original is there before what is made of it"
 
 
+def test_a_lane_is_dragged_by_its_header_to_another_view(folder):
+    with open_chair(folder) as window:
+        ids = {name: window.lane_id(name) for name in LANES}
+
+        def order():
+            return sorted(LANES, key=lambda name: window.lane(name)["index"])
+
+        def drag(name, goal, then=None):
+            x, y, width, height = window.rect(f"View {ids[name]}/handle")
+            to = window.center(f"View {ids[goal]}/picture")
+            window.drag(f"View {ids[name]}/handle", (0.3, 0.5),
+                        ((to[0] - x) / width, (to[1] - y) / height), then=then)
+        assert order() == ["original", "ias", "quadric"]
+        drag("quadric", "original")
+        window.wait("the first place", lambda: order() == ["quadric", "original", "ias"])
+        assert window.document()["active"] == int(ids["quadric"])
+        window.wait_frames(3)
+        drag("quadric", "ias")
+        window.wait("the last place", lambda: order() == ["original", "ias", "quadric"])
+        undo = window.document()["undo"]
+        drag("ias", "quadric", then=lambda: window.key("Escape"))
+        assert order() == ["original", "ias", "quadric"], "Esc did not cancel"
+        assert window.state()["dialog"] == 0 and window.document()["undo"] == undo
+        window.key("ctrl+z")
+        window.wait("one step back", lambda: order() == ["quadric", "original", "ias"])
+
+
+def test_a_click_on_a_header_makes_its_lane_the_active_one(folder):
+    with open_chair(folder) as window:
+        for name in ("original", "quadric", "ias"):
+            window.click(f"View {window.lane_id(name)}/handle")
+            window.wait(f"{name} active",
+                        lambda n=name: window.document()["active"] == int(window.lane_id(n)))
+        assert window.document()["undo"] == "", "a click moved a lane"
+
+
+def test_the_wheel_zooms_and_shift_middle_pans(folder):
+    with open_chair(folder) as window:
+        name = view(window, "ias")
+        before = pictures_of(window)
+        window.move(*window.center(name))
+        window.wait_frames(2)
+        xdotool("click", "--repeat", "3", "--delay", "60", "4")
+        window.wait_frames(2)
+        nearer = pictures_of(window)
+        for lane in LANES:
+            assert differing_share(before[lane], nearer[lane]) > 0.02, f"{lane} was not zoomed"
+        xdotool("keydown", "shift")
+        window.wait_frames(2)
+        azimuth = window.state()["azimuth"]
+        window.drag(name, (0.4, 0.4), (0.6, 0.5), button="2")
+        xdotool("keyup", "shift")
+        panned = pictures_of(window)
+        assert window.state()["azimuth"] == azimuth, "it orbited"
+        for lane in LANES:
+            assert differing_share(nearer[lane], panned[lane]) > 0.02, f"{lane} was not panned"
+
+
+def test_holding_c_goes_on_collapsing_and_is_one_step(folder):
+    with open_chair(folder) as window:
+        window.click(view(window, "ias"))
+        start = window.lane("ias")["triangles"]
+        counts = set()
+
+        def falls():
+            counts.add(window.lane("ias")["triangles"])
+            return len(counts) > 4
+        xdotool("keydown", "c")
+        try:
+            window.wait("four steps", falls)
+        finally:
+            xdotool("keyup", "c")
+        window.wait_frames(3)
+        fewer = window.lane("ias")["triangles"]
+        assert fewer < start
+        window.key("shift+v")
+        window.wait("split back", lambda: window.lane("ias")["triangles"] > fewer)
+        window.key("ctrl+z")
+        window.wait("collapsed", lambda: window.lane("ias")["triangles"] == fewer)
+        window.key("ctrl+z")
+        window.wait("all of it", lambda: window.lane("ias")["triangles"] == start)
+
+
+def test_ctrl_3_brings_the_pair_back_and_ctrl_y_redoes(folder):
+    with open_chair(folder) as window:
+        window.key("ctrl+9")
+        window.wait("nine lanes", lambda: window.document()["lanes"] > 3)
+        window.key("ctrl+3")
+        window.wait("three lanes", lambda: window.document()["lanes"] == 3)
+        window.key("ctrl+z")
+        window.wait("nine again", lambda: window.document()["lanes"] > 3)
+        window.key("ctrl+y")
+        window.wait("three again", lambda: window.document()["lanes"] == 3)
+
+
+def test_ctrl_q_asks_and_quits(folder):
+    with open_chair(folder) as window:
+        window.key("ctrl+q")
+        window.click("Quit/Quit")
+        assert window.process.wait(30) == 0
+
+
+def test_a_value_can_be_typed(folder):
+    with open_chair(folder) as window:
+        other = window.lane("quadric")["triangles"]
+        full = window.lane("original")["triangles"]
+        window.click(view(window, "ias"))
+        window.click("Inspector/Target value")
+        window.key("ctrl+a")
+        window.type("35")
+        window.key("Return")
+        window.wait("35 %", lambda: 0.3 * full < window.lane("ias")["triangles"] <= 0.35 * full)
+        assert window.lane("quadric")["triangles"] == other
+
+
+def test_a_sample_opens_from_the_first_screen(_):
+    with Window(base.BINARY) as window:
+        window.wait_ready("original")
+        window.click("Welcome/chair")
+        window.wait("the chair", lambda: window.document()["scene"] != "" and
+                    window.lane("original")["instances"] == 68)
+        assert not window.state()["welcome"]
+        window.wait_ready(*LANES)
+
+
 def test_difference_and_heat_map_can_be_left_with_a_key(folder):
     with open_chair(folder) as window:
         for mode in ("Heat map", "Difference"):
