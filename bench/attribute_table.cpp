@@ -21,11 +21,13 @@ constexpr std::array kRatios{0.5, 0.2, 0.05};
 constexpr std::uint64_t kFewest = 100;     // triangles: below there is nothing to simplify
 constexpr std::uint64_t kMost = 1'000'000; // instanced ones that are drawn in software
 
+constexpr std::size_t kViews = 8;
+
 // All around, from above and from below in turn.
 std::vector<OrbitView> views() {
     std::vector<OrbitView> views;
-    for (int i = 0; i < 8; ++i)
-        views.push_back({22.5 + 45.0 * i, i % 2 == 0 ? 30.0 : -20.0});
+    for (std::size_t i = 0; i < kViews; ++i)
+        views.push_back({22.5 + 45.0 * static_cast<double>(i), i % 2 == 0 ? 30.0 : -20.0});
     return views;
 }
 
@@ -109,8 +111,8 @@ Result<Case> makeCase(const AttributeBench& bench, const ScenePtr& scene) {
     return made;
 }
 
-// Draws all columns, sets the rows' differences; result: the pictures from two opposite views, for
-// the contact sheet.
+// Draws all columns, sets the rows' differences; result: the pictures of all columns from one view
+// after the other, for the contact sheet.
 Result<std::vector<SheetCell>> drawCase(const AttributeBench& bench, Case& made) {
     PictureRequest request;
     request.columns = made.columns;
@@ -118,16 +120,13 @@ Result<std::vector<SheetCell>> drawCase(const AttributeBench& bench, Case& made)
     request.width_px = request.height_px = bench.picture_px;
     std::vector<Picture> references;
     std::vector<std::vector<ImageDifference>> pairs(made.columns.size());
-    std::array<std::vector<SheetCell>, 2> cells; // of the first view, of the one from behind
+    std::vector<SheetCell> cells(kViews * made.columns.size());
     const auto take = [&](PictureOrigin origin, Picture picture) -> Result<void> {
-        if (origin.view % 4 == 0) {
-            Pixels pixels;
-            pixels.width = picture.width_px;
-            pixels.height = picture.height_px;
-            pixels.rgba = picture.rgba;
-            cells[origin.view / 4].push_back(
-                {std::move(pixels), made.columns[origin.column].label});
-        }
+        SheetCell& cell = cells[origin.view * made.columns.size() + origin.column];
+        cell.picture.width = picture.width_px;
+        cell.picture.height = picture.height_px;
+        cell.picture.rgba = picture.rgba;
+        cell.label = made.columns[origin.column].label;
         if (origin.column == 0) {
             references.push_back(std::move(picture));
             return {};
@@ -145,13 +144,12 @@ Result<std::vector<SheetCell>> drawCase(const AttributeBench& bench, Case& made)
         made.rows[i].their_flip = combined(pairs[1 + 2 * i]).flip;
         made.rows[i].our_flip = combined(pairs[2 + 2 * i]).flip;
     }
-    cells[0].insert(cells[0].end(), cells[1].begin(), cells[1].end());
-    return std::move(cells[0]);
+    return cells;
 }
 
 Result<void> writeSheet(const std::filesystem::path& path, const std::vector<SheetCell>& cells) {
     SheetOptions options;
-    options.columns = static_cast<std::uint32_t>(cells.size() / 2);
+    options.columns = static_cast<std::uint32_t>(cells.size() / kViews);
     const Result<Pixels> sheet = composeSheet(cells, options);
     return sheet ? writePng(path, *sheet) : tl::unexpected(sheet.error());
 }

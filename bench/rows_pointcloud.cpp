@@ -1,14 +1,16 @@
 #include "bench/rows_pointcloud.h"
 
-#include "app/main/headless_images.h"
+#include "bench/frame_turns.h"
 #include "bench/quality.h"
 #include "bench/table.h"
+#include "bench/timing.h"
 #include "scene/expand.h"
 #include "simplify/algorithm.h"
 
 #include <algorithm>
 #include <fmt/core.h>
 #include <iostream>
+#include <numeric>
 
 namespace lodestone::bench {
 
@@ -111,8 +113,8 @@ std::uint64_t uniqueVertices(const Lod& lod) {
     return vertices;
 }
 
-std::string changeText(double value, double before) {
-    return fmt::format("{:+.1f} %", 100.0 * (value / before - 1.0));
+std::string changeText(double ratio) {
+    return fmt::format("{:+.1f} %", 100.0 * (ratio - 1.0));
 }
 
 std::string edgeText(const EdgeCounts& edges) {
@@ -153,33 +155,62 @@ struct ProtocolRow {
     std::string_view method;
     std::string label;
     Simplified result;
-    double frame_ms = 0.0;
 };
 
-// Mean frame of the scene itself, then of each row's LOD.
-Result<double> timeFrames(const ScenePtr& scene, std::span<ProtocolRow> rows) {
-    RenderRequest request;
-    request.width_px = request.height_px = 256; // vertices count, not pixels
-    request.measure = true;
-    request.path = std::filesystem::temp_directory_path() / "lodestone_bench_pointcloud.png";
-    request.columns.push_back({scene, std::make_shared<const Lod>(fullLod(*scene)), "original"});
-    for (const ProtocolRow& row : rows)
-        request.columns.push_back({row.result.scene, row.result.lod, row.label});
-    const Result<RenderReport> report = makeHeadlessImages()->render(request, {});
-    std::error_code ignored;
-    std::filesystem::remove(request.path, ignored);
-    if (!report)
-        return tl::unexpected(report.error());
-    for (std::size_t i = 0; i < rows.size(); ++i)
-        rows[i].frame_ms = report->frame_ms[i + 1];
-    return report->frame_ms[0];
+Result<std::vector<ProtocolRow>> simplifyAll(const ScenePtr& scene, PointCloudExtent extent) {
+    std::vector<ProtocolRow> rows;
+    for (const MethodSettings& method : paperSettings(extent)) {
+        const Algorithm& algorithm = *findAlgorithm(method.id);
+        for (const Setting& setting : method.settings) {
+            Result<Simplified> result =
+                simplify(scene, algorithm, setting.values, {Target::Kind::Ratio, 0.0});
+            if (!result)
+                return tl::unexpected(result.error());
+            rows.push_back({algorithm.short_name, setting.label, std::move(*result)});
+        }
+    }
+    return rows;
 }
 
-Result<void> writeRows(std::ostream& out, const ScenePtr& scene, std::span<ProtocolRow> rows) {
-    const Result<double> before_ms = timeFrames(scene, rows);
-    if (!before_ms)
-        return tl::unexpected(before_ms.error());
-    for (const ProtocolRow& row : rows) {
+// Milliseconds [1 + rows][turns]: of the scene itself, then of each row's LOD.
+Result<std::vector<std::vector<double>>>
+timeFrames(const ScenePtr& scene, std::span<const ProtocolRow> rows, PointCloudExtent extent) {
+    std::vector<FrameColumn> columns{{scene, std::make_shared<const Lod>(fullLod(*scene))}};
+    for (const ProtocolRow& row : rows)
+        columns.push_back({row.result.scene, row.result.lod});
+    FrameTurns turns;
+    turns.budget_s = 180.0; // for where the CPU draws and is busy, too
+    if (extent == PointCloudExtent::Quick)
+        turns.turns = 4;
+    return timeFramesInTurns(columns, turns);
+}
+
+double meanOf(std::span<const double> values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+Result<void> writeProtocol(std::ostream& out, const ScenePtr& scene, PointCloudExtent extent) {
+    const Result<std::vector<ProtocolRow>> rows = simplifyAll(scene, extent);
+    if (!rows)
+        return tl::unexpected(rows.error());
+    const Lod full = fullLod(*scene);
+    const auto times = timeFrames(scene, *rows, extent);
+    if (!times)
+        return tl::unexpected(times.error());
+    const std::vector<double>& before = times->front();
+    out << fmt::format("Before: {} vertices, {} triangles, {:.3f} ms a frame, {} edges with one "
+                       "face / with more than two. {} frames of each were counted.\n\n"
+                       "| method | parameter | vertices | triangles | frame | change | build | "
+                       "Hausdorff | mean | open / non-manifold edges |\n"
+                       "|---|---|---|---|---|---|---|---|---|---|\n",
+                       countText(uniqueVertices(full)),
+                       countText(full.triangles),
+                       meanOf(before),
+                       edgeText(countEdges(full)),
+                       countText(before.size() * std::uint64_t{FrameTurns{}.frames_a_turn}));
+    for (std::size_t r = 0; r < rows->size(); ++r) {
+        const ProtocolRow& row = (*rows)[r];
+        const std::vector<double>& frames = (*times)[r + 1];
         const Lod& lod = *row.result.lod;
         const Result<Distance> distance = distanceToFull({scene.get(), &lod});
         if (!distance)
@@ -189,38 +220,12 @@ Result<void> writeRows(std::ostream& out, const ScenePtr& scene, std::span<Proto
                            row.label,
                            countText(uniqueVertices(lod)),
                            countText(lod.triangles),
-                           row.frame_ms,
-                           changeText(row.frame_ms, *before_ms),
+                           meanOf(frames),
+                           changeText(medianRatio(frames, before)),
                            secondsText(row.result.cpu_seconds),
                            percentText(distance->hausdorff),
                            percentText(distance->mean),
                            edgeText(countEdges(lod)));
-    }
-    return {};
-}
-
-Result<void> writeProtocol(std::ostream& out, const ScenePtr& scene, PointCloudExtent extent) {
-    const Lod full = fullLod(*scene);
-    out << fmt::format("Before: {} vertices, {} triangles, {} edges with one face / with more than "
-                       "two.\n\n"
-                       "| method | parameter | vertices | triangles | frame | change | build | "
-                       "Hausdorff | mean | open / non-manifold edges |\n"
-                       "|---|---|---|---|---|---|---|---|---|---|\n",
-                       countText(uniqueVertices(full)),
-                       countText(full.triangles),
-                       edgeText(countEdges(full)));
-    for (const MethodSettings& method : paperSettings(extent)) {
-        const Algorithm& algorithm = *findAlgorithm(method.id);
-        std::vector<ProtocolRow> rows;
-        for (const Setting& setting : method.settings) {
-            Result<Simplified> result =
-                simplify(scene, algorithm, setting.values, {Target::Kind::Ratio, 0.0});
-            if (!result)
-                return tl::unexpected(result.error());
-            rows.push_back({algorithm.short_name, setting.label, std::move(*result), 0.0});
-        }
-        if (const Result<void> written = writeRows(out, scene, rows); !written)
-            return written;
     }
     return {};
 }
