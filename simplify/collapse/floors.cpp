@@ -1,4 +1,5 @@
 #include "simplify/collapse/sequence.h"
+#include "simplify/shape_floor.h"
 
 #include <algorithm>
 
@@ -6,16 +7,12 @@ namespace lodestone {
 
 namespace {
 
-struct Measure {
-    Bounds bounds;
-    double area = 0.0;
-};
-
-Measure measureAt(const CollapseSequence& sequence, const Submesh& submesh, std::uint32_t step) {
+ShapeMeasure
+measureAt(const CollapseSequence& sequence, const Submesh& submesh, std::uint32_t step) {
     const Complex& complex = sequence.complex;
     std::vector<std::uint32_t> stands_for(complex.wedge_source.size());
     resolveWedges(sequence, step, stands_for);
-    Measure measure;
+    ShapeMeasure measure;
     for (std::size_t f = 0; f < complex.faces.size(); ++f) {
         if (sequence.face_death[f] <= step)
             continue;
@@ -26,21 +23,9 @@ Measure measureAt(const CollapseSequence& sequence, const Submesh& submesh, std:
         }
         if (!std::ranges::all_of(corner, [&](const auto& p) { return complex.bulk.holds(p); }))
             continue;
-        for (const glm::dvec3& p : corner)
-            measure.bounds.add(p);
-        measure.area += 0.5 * glm::length(glm::cross(corner[1] - corner[0], corner[2] - corner[0]));
+        measure.add(corner);
     }
     return measure;
-}
-
-// The extents that must stay. A leaf's sag is not its size: an axis less than a quarter as long as
-// both others does not count. The height of a flat house is.
-glm::dvec3 leastExtents(const glm::dvec3& size, double share) {
-    glm::dvec3 least = size * share;
-    for (int axis = 0; axis < 3; ++axis)
-        if (4.0 * size[axis] < std::min(size[(axis + 1) % 3], size[(axis + 2) % 3]))
-            least[axis] = 0.0;
-    return least;
 }
 
 // The last step with at least that many triangles.
@@ -69,14 +54,10 @@ std::uint32_t floorStep(const CollapseSequence& sequence,
     const std::uint32_t limit = lastStepWith(sequence, std::min(floors.min_triangles, clean));
     if (instance_count < 2 || limit == 0)
         return limit;
-    const Measure whole = measureAt(sequence, submesh, 0);
-    const glm::dvec3 least = leastExtents(whole.bounds.size(), floors.min_extent);
+    const ShapeMeasure whole = measureAt(sequence, submesh, 0);
     const auto passes = [&](std::uint32_t step) {
-        const Measure now = measureAt(sequence, submesh, step);
-        const glm::dvec3 size = now.bounds.size();
-        const double slack = 1e-9 * whole.bounds.diagonal();
-        return size.x + slack >= least.x && size.y + slack >= least.y &&
-               size.z + slack >= least.z && now.area >= floors.min_area * whole.area;
+        return keepsShape(
+            measureAt(sequence, submesh, step), whole, {floors.min_extent, floors.min_area});
     };
     // Extent and area fall slowly at first: look from the coarse end, halving the way back, then
     // bisect. Each look costs what is left of the mesh, and the coarse end is cheap.

@@ -49,15 +49,15 @@ void CloudCache::insert(const LodPtr& lod) {
     }
 }
 
-std::optional<CloudDraft> CloudCache::floor(std::size_t submesh) const {
+std::optional<CloudDraft> CloudCache::coarsest(std::size_t submesh, CloudFloor floor) const {
     const std::scoped_lock lock(mutex_);
-    const auto found = floors_.find(submesh);
-    return found == floors_.end() ? std::nullopt : std::optional(found->second);
+    const auto found = coarsest_.find({submesh, floor});
+    return found == coarsest_.end() ? std::nullopt : std::optional(found->second);
 }
 
-void CloudCache::insertFloor(std::size_t submesh, const CloudDraft& draft) {
+void CloudCache::insertCoarsest(std::size_t submesh, CloudFloor floor, const CloudDraft& draft) {
     const std::scoped_lock lock(mutex_);
-    floors_.try_emplace(submesh, draft);
+    coarsest_.try_emplace({submesh, floor}, draft);
 }
 
 } // namespace lodestone

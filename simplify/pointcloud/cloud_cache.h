@@ -38,8 +38,8 @@ public:
     void insert(const LodPtr& lod);
 
     // The coarsest that a submesh may become, once it is known.
-    std::optional<CloudDraft> floor(std::size_t submesh) const;
-    void insertFloor(std::size_t submesh, const CloudDraft& draft);
+    std::optional<CloudDraft> coarsest(std::size_t submesh, CloudFloor floor) const;
+    void insertCoarsest(std::size_t submesh, CloudFloor floor, const CloudDraft& draft);
 
 private:
     static constexpr std::size_t kMostDrafts = 6;
@@ -51,7 +51,7 @@ private:
     std::deque<CloudDraftsPtr> drafts_; // oldest first
     std::deque<LodPtr> lods_;
     std::uint64_t lod_triangles_ = 0;
-    std::map<std::size_t, CloudDraft> floors_;
+    std::map<std::pair<std::size_t, CloudFloor>, CloudDraft> coarsest_;
 };
 
 } // namespace lodestone

@@ -24,13 +24,17 @@ double farthestMove(const CloudSurface& surface, const Complex& complex) {
     return std::max(std::sqrt(farthest2), surface.removal_error);
 }
 
-// Side of the equilateral triangle of mean area.
-double typicalEdge(const CloudSurface& surface) {
-    double doubled_area = 0.0;
+ShapeMeasure measure(const CloudSurface& surface) {
+    ShapeMeasure measured;
     for (std::size_t f = 0; f < surface.faces.size(); ++f)
-        doubled_area += glm::length(faceVector(surface.points(f)));
-    const auto count = static_cast<double>(std::max<std::size_t>(1, surface.faces.size()));
-    return std::sqrt(2.0 / std::sqrt(3.0) * doubled_area / count);
+        measured.add(surface.points(f));
+    return measured;
+}
+
+// Side of the equilateral triangle of mean area.
+double typicalEdge(const CloudSubmesh& submesh) {
+    const auto count = static_cast<double>(std::max<std::size_t>(1, submesh.surface.faces.size()));
+    return std::sqrt(4.0 / std::sqrt(3.0) * submesh.shape.area / count);
 }
 
 } // namespace
@@ -55,8 +59,19 @@ CloudSubmesh makeCloudSubmesh(const Submesh& submesh,
     made.surface = makeSurface(submesh, made.complex, job);
     if (job.stopRequested())
         return made;
-    made.edge_length = typicalEdge(made.surface);
+    made.shape = measure(made.surface);
+    made.edge_length = typicalEdge(made);
     return made;
+}
+
+bool keepsFloor(const CloudSubmesh& from, const CloudDraft& draft, CloudFloor floor) {
+    if (!draft.surface)
+        return true;
+    if (draft.triangles < std::min<std::size_t>(4, from.surface.faces.size()))
+        return false;
+    constexpr ShapeShares kLeast{0.4, 0.0}; // a road's slab below that is under the grass
+    return floor == CloudFloor::Triangles || from.instances < 2 ||
+           keepsShape(measure(*draft.surface), from.shape, kLeast);
 }
 
 CloudDraft originalDraft(const CloudSubmesh& from) {

@@ -2,6 +2,7 @@
 // One submesh simplified to settings.
 #include "scene/lod.h"
 #include "simplify/pointcloud/cloud_method.h"
+#include "simplify/shape_floor.h"
 
 namespace lodestone {
 
@@ -10,6 +11,7 @@ struct CloudSubmesh {
     const Submesh* submesh = nullptr;
     Complex complex;
     CloudSurface surface;        // of complex
+    ShapeMeasure shape;          // of surface
     double stretch = 0.0;        // largest scale of an instance; 0: nothing to see
     double edge_length = 0.0;    // typical one, submesh units; 0: no area
     std::uint32_t triangles = 0; // the file's own
@@ -35,6 +37,15 @@ struct CloudPiece {
 CloudSubmesh makeCloudSubmesh(const Submesh& submesh,
                               std::span<const Instance> instances,
                               const JobContext& job);
+
+// What a submesh must not lose.
+enum class CloudFloor : std::uint8_t {
+    Triangles, // keeps 4, or all it has
+    Shape,     // and of several instances two fifths of every extent but a thin one
+};
+
+// Whether a draft keeps to the floor. O(faces of the draft).
+bool keepsFloor(const CloudSubmesh& from, const CloudDraft& draft, CloudFloor floor);
 
 // As the file has it.
 CloudDraft originalDraft(const CloudSubmesh& from);

@@ -28,7 +28,11 @@ class PointCloudSource final : public LodSource {
 public:
     explicit PointCloudSource(PointCloudInput input)
         : cloud_(std::move(input.cloud)), options_(input.options),
-          schedule_(std::move(input.schedule)), ladder_(*options_.method) {}
+          schedule_(std::move(input.schedule)), ladder_(*options_.method),
+          keeps_shapes_(options_.settings.fidelity == Fidelity::Sound &&
+                        std::ranges::any_of(cloud_->submeshes, [](const CloudSubmesh& submesh) {
+                            return submesh.instances > 1;
+                        })) {}
 
     const CloudScenePtr& cloud() const { return cloud_; }
 
@@ -73,11 +77,18 @@ public:
 private:
     bool isGiven() const { return options_.main > 0.0; }
 
-    std::uint64_t lastPosition() const { return isGiven() ? 1 : ladder_.last(); }
+    // Above the ladder's rungs they come again, for targets that no shape can be kept for.
+    std::uint64_t lastPosition() const {
+        return isGiven() ? 1 : ladder_.last() * (keeps_shapes_ ? 2 : 1);
+    }
 
     CloudDraft simplified(std::size_t s, CloudSettings settings, const JobContext& job) const;
     CloudDraft draftOf(std::size_t s, std::uint64_t position, const JobContext& job) const;
-    CloudDraft coarsestAllowed(std::size_t s, const JobContext& job) const;
+    CloudDraft draftWithin(std::size_t s,
+                           const CloudSettings& settings,
+                           CloudFloor floor,
+                           const JobContext& job) const;
+    CloudDraft coarsestAllowed(std::size_t s, CloudFloor floor, const JobContext& job) const;
     CloudCountsPtr countsOf(const CloudDrafts& drafts) const;
     CloudDraftsPtr draftsAt(std::uint64_t position, const JobContext& job) const;
     CloudCountsPtr countsAt(std::uint64_t position, const JobContext& job) const;
@@ -90,6 +101,7 @@ private:
     PointCloudOptions options_;
     ScheduleOptions schedule_;
     CloudLadder ladder_;
+    bool keeps_shapes_ = false; // before the floor is a number of triangles alone
     mutable CloudCache cache_;
 };
 
@@ -104,13 +116,10 @@ PointCloudSource::simplified(std::size_t s, CloudSettings settings, const JobCon
     return draftPiece(submesh, *options_.method, settings, job);
 }
 
-std::uint32_t floorOf(const CloudSubmesh& submesh) {
-    return std::min(4u, static_cast<std::uint32_t>(submesh.surface.faces.size()));
-}
-
-// By bisection over the rungs on whether enough triangles are left.
-CloudDraft PointCloudSource::coarsestAllowed(std::size_t s, const JobContext& job) const {
-    if (const std::optional<CloudDraft> known = cache_.floor(s))
+// By bisection over the rungs on whether the floor is kept.
+CloudDraft
+PointCloudSource::coarsestAllowed(std::size_t s, CloudFloor floor, const JobContext& job) const {
+    if (const std::optional<CloudDraft> known = cache_.coarsest(s, floor))
         return *known;
     const CloudSubmesh& submesh = cloud_->submeshes[s];
     CloudDraft best = originalDraft(submesh);
@@ -119,7 +128,7 @@ CloudDraft PointCloudSource::coarsestAllowed(std::size_t s, const JobContext& jo
     while (high - low > 1 && !job.stopRequested()) {
         const std::uint64_t middle = low + (high - low) / 2;
         CloudDraft draft = simplified(s, ladder_.settingsOf(middle, options_.settings), job);
-        if (draft.triangles >= floorOf(submesh)) {
+        if (keepsFloor(submesh, draft, floor)) {
             best = std::move(draft);
             low = middle;
         } else {
@@ -127,8 +136,16 @@ CloudDraft PointCloudSource::coarsestAllowed(std::size_t s, const JobContext& jo
         }
     }
     if (!job.stopRequested())
-        cache_.insertFloor(s, best);
+        cache_.insertCoarsest(s, floor, best);
     return best;
+}
+
+CloudDraft PointCloudSource::draftWithin(std::size_t s,
+                                         const CloudSettings& settings,
+                                         CloudFloor floor,
+                                         const JobContext& job) const {
+    CloudDraft draft = simplified(s, settings, job);
+    return keepsFloor(cloud_->submeshes[s], draft, floor) ? draft : coarsestAllowed(s, floor, job);
 }
 
 CloudDraft
@@ -137,13 +154,21 @@ PointCloudSource::draftOf(std::size_t s, std::uint64_t position, const JobContex
     const bool locked = !schedule_.locked.empty() && schedule_.locked[s];
     if (position == 0 || locked || submesh.surface.faces.empty())
         return originalDraft(submesh);
-    CloudSettings settings = ladder_.settingsOf(position, options_.settings);
+    const CloudFloor floor = keeps_shapes_ ? CloudFloor::Shape : CloudFloor::Triangles;
     if (isGiven()) {
-        settings = options_.settings;
+        CloudSettings settings = options_.settings;
         settings.main = options_.main;
+        return draftWithin(s, settings, floor, job);
     }
-    CloudDraft draft = simplified(s, settings, job);
-    return draft.triangles >= floorOf(submesh) ? draft : coarsestAllowed(s, job);
+    const auto settingsAt = [&](std::uint64_t rung) {
+        return ladder_.settingsOf(rung, options_.settings);
+    };
+    if (position <= ladder_.last())
+        return draftWithin(s, settingsAt(position), floor, job);
+    CloudDraft shaped = coarsestAllowed(s, CloudFloor::Shape, job);
+    CloudDraft coarser =
+        draftWithin(s, settingsAt(position - ladder_.last()), CloudFloor::Triangles, job);
+    return coarser.triangles < shaped.triangles ? coarser : shaped;
 }
 
 CloudCountsPtr PointCloudSource::countsOf(const CloudDrafts& drafts) const {

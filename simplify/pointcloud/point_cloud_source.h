@@ -18,7 +18,9 @@ struct PointCloudOptions {
 
 // Welds every submesh and tries the method where searches for a target begin, or at the given
 // value. Distances are divided by the largest scale of the submesh's instances. A submesh keeps at
-// least min(4, its own) triangles. Errors: Cancelled. Any thread, deterministic.
+// least min(4, its own) triangles. One of several instances also keeps two fifths of its extents,
+// or what is thin would sink into what it lies on: until every submesh is as coarse as that allows,
+// and not where the method is to be literal. Errors: Cancelled. Any thread, deterministic.
 Result<LodSourcePtr> preparePointCloud(ScenePtr scene,
                                        const PointCloudOptions& options,
                                        const ScheduleOptions& schedule,

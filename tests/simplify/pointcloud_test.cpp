@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 #include <random>
 #include <set>
@@ -60,6 +61,21 @@ LodSourcePtr prepared(std::string_view id, const ScenePtr& scene, const Paramete
 ScenePtr sphereScene(double scale = 1.0) {
     return meshes::sceneOf({meshes::submeshOf({meshes::sphere(24, 32)})},
                            {{glm::dmat4(glm::dmat3(scale))}});
+}
+
+// A road's slab, flat and long, as often as trees that have most of the triangles.
+ScenePtr roadsAndTrees() {
+    const Submesh road = meshes::submeshOf({meshes::sphere(6, 8)});
+    const Submesh tree = meshes::submeshOf({meshes::sphere(24, 32)});
+    const glm::dmat4 flat = glm::scale(glm::dmat4(1.0), glm::dvec3(4.0, 0.5, 2.0));
+    return meshes::sceneOf({road, tree}, {std::vector(9, flat), std::vector(9, glm::dmat4(1.0))});
+}
+
+double extentOf(const Geometry& geometry) {
+    Bounds bounds;
+    for (const std::uint32_t index : geometry.indices)
+        bounds.add(glm::dvec3(geometry.positions[index]));
+    return bounds.size().y;
 }
 
 // Faces of all primitives as sorted triples of places, with the primitive.
@@ -293,6 +309,35 @@ TEST(PointCloud, AGivenParameterIsUsedWhateverTheTarget) {
     EXPECT_NE(tight.note.find("radius"), std::string::npos);
 }
 
+TEST(PointCloud, NothingSinksIntoWhatItLiesOnBeforeAllIsAsCoarse) {
+    const ScenePtr scene = roadsAndTrees();
+    const double full = extentOf(*scene->submeshes[0].primitives[0].geometry);
+    for (const std::string_view id : kIds) {
+        const LodSourcePtr source = prepared(id, scene, {});
+        const std::uint64_t shaped = (source->positionCount() - 1) / 2;
+        for (const std::uint64_t position : {shaped / 4, shaped / 2, shaped}) {
+            const Lod lod = source->readOut(position, nullptr);
+            EXPECT_GE(extentOf(*lod.submeshes[0].primitives[0]), 0.4 * full) << id;
+        }
+        EXPECT_LE(source->trianglesAt(2 * shaped), source->trianglesAt(shaped)) << id;
+    }
+}
+
+TEST(PointCloud, TargetsThatNoShapeCanBeKeptForAreMetWithoutThem) {
+    const ScenePtr scene = roadsAndTrees();
+    const ByteModel bytes(scene, {});
+    int beyond = 0;
+    for (const std::string_view id : kIds) {
+        const LodSourcePtr source = prepared(id, scene, {});
+        const std::uint64_t last = source->positionCount() - 1;
+        const std::uint64_t least = source->trianglesAt(last);
+        const auto target = static_cast<double>(least);
+        EXPECT_TRUE(source->resolve({Target::Kind::Triangles, target}, bytes).met) << id;
+        beyond += least < source->trianglesAt(last / 2) ? 1 : 0;
+    }
+    EXPECT_GT(beyond, 0);
+}
+
 TEST(PointCloud, TargetsOfEveryKindAreMet) {
     const ScenePtr scene = sphereScene();
     const ByteModel bytes(scene, {});
@@ -340,7 +385,7 @@ TEST(PointCloud, CountsAreThoseOfTheGeometryThatIsReadOut) {
     const ScenePtr scene = meshes::sceneOf({sphere, card}, {{glm::dmat4(1.0)}, {glm::dmat4(1.0)}});
     for (const std::string_view id : kIds) {
         const LodSourcePtr source = prepared(id, scene, {});
-        for (const std::uint64_t position : {0u, 500u, 1000u, 2500u, 4096u}) {
+        for (const std::uint64_t position : {0u, 500u, 1000u, 2500u, 4096u, 6500u, 8192u}) {
             const std::uint64_t triangles = source->trianglesAt(position);
             const LodShape shape = source->shapeAt(position);
             const Lod lod = source->readOut(position, nullptr);
