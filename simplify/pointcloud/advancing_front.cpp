@@ -6,6 +6,7 @@
 #include <exception>
 #include <limits>
 #include <numeric>
+#include <set>
 #include <utility>
 
 namespace lodestone {
@@ -124,20 +125,42 @@ bool isClosed(const CloudSurface& surface) {
                                [&](const auto& edge) { return hasEdge(edges, edge[1], edge[0]); });
 }
 
-// Cuts ears off a loop, those with the shortest cut first.
-void fillLoop(const Cloud& cloud, std::vector<std::size_t> loop, std::vector<Facet>& facets) {
+// Which points the facets join, those included that fill holes.
+class Joined {
+public:
+    explicit Joined(const DirectedEdges& edges) : edges_(edges) {}
+
+    bool are(std::size_t a, std::size_t b) const {
+        return hasEdge(edges_, a, b) || hasEdge(edges_, b, a) || cuts_.contains(std::minmax(a, b));
+    }
+
+    void join(std::size_t a, std::size_t b) { cuts_.insert(std::minmax(a, b)); }
+
+private:
+    const DirectedEdges& edges_;
+    std::set<std::pair<std::size_t, std::size_t>> cuts_;
+};
+
+// Cuts ears off a loop, those with the shortest cut first. No cut joins points that are joined
+// already, for then more than two facets would meet there; where every cut does, the shortest.
+void fillLoop(const Cloud& cloud,
+              std::vector<std::size_t> loop,
+              Joined& joined,
+              std::vector<Facet>& facets) {
     const auto at = [&](std::size_t i) { return loop[i % loop.size()]; };
     while (loop.size() >= 3) {
         std::size_t ear = 0;
-        double shortest = std::numeric_limits<double>::max();
+        std::pair<bool, double> best{true, std::numeric_limits<double>::max()};
         for (std::size_t i = 0; i < loop.size(); ++i) {
             const double cut = CGAL::squared_distance(cloud.points[at(i)], cloud.points[at(i + 2)]);
-            if (cut < shortest) {
-                shortest = cut;
+            const bool again = loop.size() > 3 && joined.are(at(i), at(i + 2));
+            if (std::pair{again, cut} < best) {
+                best = {again, cut};
                 ear = i;
             }
         }
         facets.push_back({at(ear), at(ear + 1), at(ear + 2)});
+        joined.join(at(ear), at(ear + 2));
         loop.erase(loop.begin() + static_cast<std::ptrdiff_t>((ear + 1) % loop.size()));
     }
 }
@@ -147,6 +170,7 @@ void closeSmallHoles(const Cloud& cloud, std::vector<Facet>& facets) {
     constexpr std::size_t kLongest = 24; // edges around one
     const DirectedEdges edges =
         directedEdges(facets.size(), [&](std::size_t f) { return facets[f]; });
+    Joined joined(edges);
     std::vector<std::size_t> next(cloud.points.size(), cloud.points.size()); // around holes
     std::vector<bool> crossed(cloud.points.size(), false); // by two holes: told apart by nothing
     for (const auto& [from, to] : edges)
@@ -161,7 +185,7 @@ void closeSmallHoles(const Cloud& cloud, std::vector<Facet>& facets) {
             loop.push_back(point);
             point = std::exchange(next[point], next.size());
             if (point == start) {
-                fillLoop(cloud, std::move(loop), facets);
+                fillLoop(cloud, std::move(loop), joined, facets);
                 break;
             }
         }

@@ -47,6 +47,7 @@ void expectClosedAndAlike(const GeometryPtr& geometry, double radius_percent) {
     const meshes::Shape shape = meshes::shapeOf(primitives);
     EXPECT_LT(shape.faces, geometry->triangleCount() / 2);
     EXPECT_EQ(shape.border_edges, 0u);
+    EXPECT_EQ(shape.non_manifold_edges, 0u);
     EXPECT_EQ(shape.degenerate_faces, 0u);
     const double volume = volumeOf(std::vector{geometry});
     EXPECT_NEAR(volumeOf(primitives), volume, 0.1 * std::abs(volume));
