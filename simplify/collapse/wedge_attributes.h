@@ -8,6 +8,9 @@ namespace lodestone {
 
 // Float attributes of wedges that are interpolated (normals, texture coordinates, colours, morph
 // targets, joints with their weights); the rest is taken from the nearest original wedge.
+// Tangents are carried, not rebuilt: the file's directions (MikkTSpace as a rule) are blended and
+// made unit again, and the sign of the bitangent is the nearer wedge's. Only wedges that meet in a
+// face become one, so signs stay apart along the seam of a mirrored texture.
 struct WedgeAttributes {
     std::uint32_t size = 0;    // floats a wedge
     std::vector<float> values; // [wedges * size], all wedges of the complex
