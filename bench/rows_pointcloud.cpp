@@ -179,7 +179,7 @@ timeFrames(const ScenePtr& scene, std::span<const ProtocolRow> rows, PointCloudE
     for (const ProtocolRow& row : rows)
         columns.push_back({row.result.scene, row.result.lod});
     FrameTurns turns;
-    turns.budget_s = 180.0; // for where the CPU draws and is busy, too
+    turns.budget_s = 200.0; // for where the CPU draws and is busy, too
     if (extent == PointCloudExtent::Quick)
         turns.turns = 4;
     return timeFramesInTurns(columns, turns);

@@ -12,7 +12,7 @@ enum class PointCloudExtent : std::uint8_t {
 };
 
 // Writes a Markdown table for each wanted input. Frames are drawn off screen: the 100th to the
-// 1,100th of each, in turns, as many of them as fit three minutes an input. What fails is told on
+// 1,100th of each, in turns, as many of them as fit 200 seconds an input. What fails is told on
 // stderr and left out. Returns the exit code. Main thread.
 int writePointCloud(std::ostream& out,
                     Inputs& inputs,
