@@ -2,6 +2,7 @@
 
 #include "scene/expand.h"
 #include "scene/import.h"
+#include "simplify/bake/bake_parameters.h"
 
 #include <algorithm>
 #include <chrono>
@@ -58,10 +59,12 @@ RunOutcome runPrepared(const RunRequest& request, const LodSourcePtr& source) {
 }
 
 // The LOD becomes a scene of its own, with new textures.
-Result<void>
-transferTextures(RunOutcome& outcome, const ExportOptions& export_options, const JobContext& job) {
+Result<void> transferTextures(RunOutcome& outcome,
+                              const BakeOptions& options,
+                              const ExportOptions& export_options,
+                              const JobContext& job) {
     const Stopwatch watch;
-    Result<BakedScene> baked = outcome.source->transferred(*outcome.lod, job);
+    Result<BakedScene> baked = outcome.source->transferred(*outcome.lod, options, job);
     if (!baked)
         return tl::unexpected<Error>(std::move(baked.error()));
     outcome.scene = std::move(baked->scene);
@@ -104,8 +107,9 @@ Result<RunOutcome> runAlgorithm(const RunRequest& request, const JobContext& job
         if (!source)
             return tl::unexpected<Error>(std::move(source.error()));
         outcome = runPrepared(request, *source);
-        if ((*source)->transfersTextures())
-            if (Result<void> done = transferTextures(outcome, request.export_options, job); !done)
+        if (const auto bake = bakeOptions(*request.algorithm, request.parameters))
+            if (Result<void> done = transferTextures(outcome, *bake, request.export_options, job);
+                !done)
                 return tl::unexpected<Error>(std::move(done.error()));
     }
     if (job.stopRequested())

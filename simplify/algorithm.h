@@ -23,6 +23,8 @@ struct ParameterInfo {
     double fallback = 0.0;                 // default
     std::vector<std::string_view> choices; // Kind::Choice: value is the index
     bool logarithmic = false;              // slider scale
+    bool of_textures = false; // of their transfer: the LODs are the same whatever its value
+    std::string_view needs;   // means nothing while that parameter is 0; empty: always counts
 };
 
 using ParameterValues = std::map<std::string, double, std::less<>>; // missing: default

@@ -4,6 +4,7 @@
 #include "scene/job_context.h"
 #include "scene/lod.h"
 #include "scene/result.h"
+#include "simplify/bake/bake_options.h"
 #include "simplify/bake/baked_scene.h"
 #include "simplify/target.h"
 
@@ -55,13 +56,12 @@ public:
                                                          const ByteModel& bytes) const = 0;
     virtual std::vector<std::string> notes() const = 0;
 
-    // Whether a LOD that is written gets textures of its own, by transferred().
-    virtual bool transfersTextures() const { return false; }
-
-    // lod: read out from this source. Slow: seconds. Errors: Usage if textures are kept, or an
-    // atlas is too small; Cancelled.
-    virtual Result<BakedScene> transferred(const Lod& /*lod*/, const JobContext& /*job*/) const {
-        return fail(ErrorKind::Usage, "this lane keeps its textures");
+    // A LOD with textures of its own. lod: read out from this source. Slow: seconds.
+    // Errors: Usage if this source cannot, or an atlas is too small; Cancelled.
+    virtual Result<BakedScene> transferred(const Lod& /*lod*/,
+                                           const BakeOptions& /*options*/,
+                                           const JobContext& /*job*/) const {
+        return fail(ErrorKind::Usage, "this algorithm cannot transfer textures");
     }
 
     // Seconds of wall time that each stage took.

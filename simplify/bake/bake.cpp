@@ -2,12 +2,13 @@
 
 #include "scene/scene_builder.h"
 #include "simplify/bake/baked_group.h"
+#include "simplify/bake/encoded_atlas.h"
+#include "simplify/bake/texel_density.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cstring>
 #include <map>
-#include <stb_image_write.h>
 #include <tbb/parallel_for.h>
 
 namespace lodestone {
@@ -21,15 +22,6 @@ bool hasTexture(const Material& material) {
                                           &material.occlusion_texture,
                                           &material.emissive_texture},
                                [](const TextureRef* texture) { return texture->image != kNone; });
-}
-
-// What a primitive's look depends on beyond its corners' places.
-bool isTextured(const Scene& scene, const Primitive& primitive) {
-    if (primitive.mode != PrimitiveMode::Triangles)
-        return false;
-    if (primitive.material != kNone && hasTexture(scene.materials[primitive.material]))
-        return true;
-    return findAttribute(primitive.geometry->attributes, "COLOR_0") != nullptr;
 }
 
 // Everything a bake works on.
@@ -75,6 +67,7 @@ void addToGroup(Bake& bake, std::uint32_t submesh, std::uint32_t primitive_index
                      material.roughness != group.material.roughness;
     group.emission |=
         material.emissive_texture.image != kNone || material.emissive != group.material.emissive;
+    group.parts.push_back({submesh, primitive_index});
     bake.primitive_group[submesh][primitive_index] = found->second;
     bake.first_triangle[submesh][primitive_index] = group.triangles.size();
     const auto faces =
@@ -89,7 +82,7 @@ void makeGroups(Bake& bake) {
         bake.primitive_group.emplace_back(primitives.size(), Bake::kPlain);
         bake.first_triangle.emplace_back(primitives.size(), 0);
         for (std::uint32_t p = 0; p < primitives.size(); ++p)
-            if (isTextured(bake.scene, primitives[p]))
+            if (isBaked(bake.scene, primitives[p]))
                 addToGroup(bake, s, p);
     }
 }
@@ -120,7 +113,7 @@ readSources(Bake& bake, std::span<const BakeSubmesh> submeshes, const JobContext
     tbb::parallel_for(std::size_t{0}, submeshes.size(), [&](std::size_t s) {
         const Submesh& submesh = bake.scene.submeshes[s];
         const bool needed = std::ranges::any_of(
-            submesh.primitives, [&](const Primitive& p) { return isTextured(bake.scene, p); });
+            submesh.primitives, [&](const Primitive& p) { return isBaked(bake.scene, p); });
         if (!needed || job.stopRequested())
             return;
         const BakeSubmesh& from = submeshes[s];
@@ -176,63 +169,57 @@ GeometryPtr unfold(const Bake& bake, std::uint32_t s, std::uint32_t p) {
     return geometry;
 }
 
-enum class Channels : std::uint8_t { Rgb = 3, Rgba = 4 };
+using Slots = std::span<TextureRef Material::*const>;
 
-Result<Image> pngImage(std::string name,
-                       const std::vector<std::uint8_t>& rgba,
-                       std::uint32_t size_px,
-                       Channels channels) {
-    const auto count = static_cast<std::size_t>(channels);
-    std::vector<std::uint8_t> texels;
-    if (channels == Channels::Rgb) {
-        texels.resize(rgba.size() / 4 * 3);
-        for (std::size_t i = 0; i < rgba.size() / 4; ++i)
-            std::copy_n(rgba.begin() + static_cast<std::ptrdiff_t>(4 * i),
-                        3,
-                        texels.begin() + static_cast<std::ptrdiff_t>(3 * i));
+// Whether everything that a group reads in those slots is JPEG.
+bool isFromJpeg(const Scene& scene, const BakedGroup& group, Slots slots) {
+    bool any = false;
+    for (const BakedPart& part : group.parts) {
+        const std::uint32_t material =
+            scene.submeshes[part.submesh].primitives[part.primitive].material;
+        for (const auto slot : material == kNone ? Slots() : slots) {
+            const std::uint32_t image = (scene.materials[material].*slot).image;
+            if (image >= scene.images.size())
+                continue;
+            if (!isJpeg(scene.images[image]))
+                return false;
+            any = true;
+        }
     }
-    const auto bytes = std::make_shared<std::vector<std::byte>>();
-    const auto append = [](void* to, void* data, int size) {
-        const auto* begin = static_cast<const std::byte*>(data);
-        auto& all = *static_cast<std::vector<std::byte>*>(to);
-        all.insert(all.end(), begin, begin + size);
-    };
-    const auto side = static_cast<int>(size_px);
-    const std::uint8_t* data = channels == Channels::Rgb ? texels.data() : rgba.data();
-    if (stbi_write_png_to_func(append, bytes.get(), side, side, static_cast<int>(count), data, 0) ==
-        0)
-        return fail(ErrorKind::Failed,
-                    "not enough memory for an atlas of " + std::to_string(size_px) +
-                        " pixels; use a smaller one");
-    return Image{std::move(name), "image/png", {}, bytes};
+    return any;
 }
 
-// Encodes a group's atlases and makes its material.
-Result<Material> addMaterial(SceneBuilder& builder,
-                             const BakedGroup& group,
-                             const BakedPixels& pixels,
-                             std::size_t number) {
-    Material material = group.material;
-    const std::string stem =
-        (material.name.empty() ? "atlas" + std::to_string(number) : material.name);
-
+// The images of a group's atlases: colour, normal, surface, emission; none where it has no pixels.
+Result<std::array<TextureRef, 4>> addImages(const Bake& bake,
+                                            SceneBuilder& builder,
+                                            const BakedGroup& group,
+                                            const BakedPixels& pixels,
+                                            const std::string& stem) {
     struct Job {
         std::string name;
         const std::vector<std::uint8_t>* rgba;
-        Channels channels;
+        std::vector<TextureRef Material::*> slots;
         Result<Image> image;
     };
 
-    const bool opaque = material.alpha_mode == AlphaMode::Opaque;
+    const bool opaque = group.material.alpha_mode == AlphaMode::Opaque;
     std::array<Job, 4> jobs{
-        Job{stem + "_color", &pixels.base_color, opaque ? Channels::Rgb : Channels::Rgba, {}},
-        Job{stem + "_normal", &pixels.normal, Channels::Rgb, {}},
-        Job{stem + "_surface", &pixels.surface, Channels::Rgb, {}},
-        Job{stem + "_emission", &pixels.emissive, Channels::Rgb, {}}};
+        Job{stem + "_color", &pixels.base_color, {&Material::base_color_texture}, {}},
+        Job{stem + "_normal", &pixels.normal, {&Material::normal_texture}, {}},
+        Job{stem + "_surface",
+            &pixels.surface,
+            {&Material::metallic_roughness_texture, &Material::occlusion_texture},
+            {}},
+        Job{stem + "_emission", &pixels.emissive, {&Material::emissive_texture}, {}}};
     tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
-        if (!jobs[i].rgba->empty())
-            jobs[i].image =
-                pngImage(jobs[i].name, *jobs[i].rgba, group.atlas.size_px, jobs[i].channels);
+        if (jobs[i].rgba->empty())
+            return;
+        const bool alpha = i == 0 && !opaque;
+        const AtlasPixels atlas{*jobs[i].rgba,
+                                group.atlas.size_px,
+                                alpha ? Channels::Rgba : Channels::Rgb,
+                                isFromJpeg(bake.scene, group, jobs[i].slots)};
+        jobs[i].image = encodedAtlas(jobs[i].name, atlas, bake.options);
     });
     std::array<TextureRef, 4> refs;
     for (std::size_t i = 0; i < jobs.size(); ++i) {
@@ -243,6 +230,22 @@ Result<Material> addMaterial(SceneBuilder& builder,
         refs[i].image = builder.addImage(std::move(*jobs[i].image));
         refs[i].wrap_u = refs[i].wrap_v = TextureWrap::ClampToEdge;
     }
+    return refs;
+}
+
+// Encodes a group's atlases and makes its material.
+Result<Material> addMaterial(const Bake& bake,
+                             SceneBuilder& builder,
+                             const BakedPixels& pixels,
+                             std::size_t number) {
+    const BakedGroup& group = bake.groups[number];
+    Material material = group.material;
+    const std::string stem =
+        material.name.empty() ? "atlas" + std::to_string(number) : material.name;
+    const Result<std::array<TextureRef, 4>> images = addImages(bake, builder, group, pixels, stem);
+    if (!images)
+        return tl::unexpected(images.error());
+    const std::array<TextureRef, 4>& refs = *images;
     material.base_color = glm::vec4(1.0f);
     material.base_color_texture = refs[0];
     material.normal_texture = refs[1];
@@ -344,7 +347,33 @@ bakeGroups(const Bake& bake, const TextureSampler& sampler, const JobContext& jo
     return all;
 }
 
+// What is told of a group's atlas; its material is not known yet.
+BakedAtlas describeAtlas(const Bake& bake, const BakedGroup& group, const TextureImages& images) {
+    BakedAtlas atlas;
+    atlas.texels_per_unit = group.atlas.texels_per_unit;
+    TexelArea covered;
+    for (const BakedPart& part : group.parts) {
+        const Primitive& primitive = bake.scene.submeshes[part.submesh].primitives[part.primitive];
+        if (primitive.material == kNone)
+            continue;
+        const Material& material = bake.scene.materials[primitive.material];
+        covered.add(*primitive.geometry, material, images, bake.sources[part.submesh].stretch);
+        if (atlas.original_image == kNone)
+            atlas.original_image = material.base_color_texture.image;
+    }
+    atlas.original_texels_per_unit = covered.texelsPerUnit();
+    return atlas;
+}
+
 } // namespace
+
+bool isBaked(const Scene& scene, const Primitive& primitive) {
+    if (primitive.mode != PrimitiveMode::Triangles)
+        return false;
+    if (primitive.material != kNone && hasTexture(scene.materials[primitive.material]))
+        return true;
+    return findAttribute(primitive.geometry->attributes, "COLOR_0") != nullptr;
+}
 
 Result<BakedScene> bakeTextures(const Scene& scene,
                                 const Lod& lod,
@@ -365,10 +394,12 @@ Result<BakedScene> bakeTextures(const Scene& scene,
     std::vector<std::uint32_t> material_of_group;
     BakedScene baked;
     for (std::size_t g = 0; g < bake.groups.size(); ++g) {
-        Result<Material> material = addMaterial(builder, bake.groups[g], (*pixels)[g], g);
+        Result<Material> material = addMaterial(bake, builder, (*pixels)[g], g);
         if (!material)
             return tl::unexpected(material.error());
         material_of_group.push_back(builder.addMaterial(std::move(*material)));
+        baked.atlases.push_back(describeAtlas(bake, bake.groups[g], sampler.images()));
+        baked.atlases.back().material = material_of_group.back();
         const double density = bake.groups[g].atlas.texels_per_unit;
         baked.texels_per_unit = g == 0 ? density : std::min(baked.texels_per_unit, density);
     }

@@ -1,19 +1,11 @@
 #pragma once
 // Texture transfer: a LOD's own textures, made from what the original surface looks like.
 #include "scene/lod.h"
+#include "simplify/bake/bake_options.h"
 #include "simplify/bake/baked_scene.h"
 #include "simplify/collapse/sequence.h"
 
-#include <optional>
-
 namespace lodestone {
-
-struct BakeOptions {
-    std::uint32_t atlas_px = 1024; // side of every atlas, 256..8192
-    bool merge_materials = false;  // one atlas for all materials that blend alike; else one each
-    // What texels hold that no triangle uses; else the mean of those that are used.
-    std::optional<std::array<std::uint8_t, 3>> unused;
-};
 
 // One submesh of a LOD: where it stands in its sequence.
 struct BakeSubmesh {
@@ -23,6 +15,9 @@ struct BakeSubmesh {
     glm::dvec3 pivot{0.0};
     double stretch = 1.0; // largest factor of its instances on lengths: texels follow world size
 };
+
+// Whether a transfer gives a primitive of the scene new textures: it has some, or vertex colours.
+bool isBaked(const Scene& scene, const Primitive& primitive);
 
 // Makes a scene of a LOD with new texture coordinates (every triangle by itself) and new images:
 // base colour, and where the materials have them normals (in the new tangent frame), occlusion,

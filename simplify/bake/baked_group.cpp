@@ -180,6 +180,40 @@ bool bakeTriangle(const BakedGroup& group,
     return goes_on && done(1);
 }
 
+// Texels that nothing was written to take on the colours beside them, a few texels wide, so that
+// smaller sizes of the texture and JPEG's blocks show little else. Marks them as used.
+void spreadColors(std::vector<std::uint8_t>& rgba, std::vector<bool>& used, std::size_t side) {
+    constexpr int kReach = 4; // half of what lies between triangles, and more
+    for (int pass = 0; pass < kReach; ++pass) {
+        std::vector<std::size_t> fresh;
+        for (std::size_t at = 0; at < used.size(); ++at) {
+            if (used[at])
+                continue;
+            const std::size_t x = at % side;
+            const std::array<std::pair<bool, std::size_t>, 4> beside{
+                std::pair{x > 0, at - 1},
+                {x + 1 < side, at + 1},
+                {at >= side, at - side},
+                {at + side < used.size(), at + side}};
+            std::array<unsigned, 4> sum{};
+            unsigned count = 0;
+            for (const auto& [inside, other] : beside)
+                if (inside && used[other]) {
+                    ++count;
+                    for (std::size_t c = 0; c < 4; ++c)
+                        sum[c] += rgba[4 * other + c];
+                }
+            if (count == 0)
+                continue;
+            for (std::size_t c = 0; c < 4; ++c)
+                rgba[4 * at + c] = static_cast<std::uint8_t>(sum[c] / count);
+            fresh.push_back(at);
+        }
+        for (const std::size_t at : fresh)
+            used[at] = true;
+    }
+}
+
 // Texels that nothing was written to get one colour.
 void fillUnused(std::vector<std::uint8_t>& rgba,
                 const std::vector<bool>& used,
@@ -229,8 +263,12 @@ Result<BakedPixels> bakePixels(const BakedGroup& group,
         });
     for (std::vector<std::uint8_t>* image :
          {&pixels.base_color, &pixels.normal, &pixels.surface, &pixels.emissive})
-        if (!image->empty())
-            fillUnused(*image, used, options.unused);
+        if (!image->empty()) {
+            std::vector<bool> filled = used;
+            if (!options.unused)
+                spreadColors(*image, filled, group.atlas.size_px);
+            fillUnused(*image, filled, options.unused);
+        }
     return pixels;
 }
 

@@ -26,8 +26,15 @@ struct BakedTriangle {
     std::array<std::uint8_t, 3> order{0, 1, 2}; // right angle, end of the base, third corner
 };
 
+// A primitive of the original whose triangles a group has taken.
+struct BakedPart {
+    std::uint32_t submesh = 0;
+    std::uint32_t primitive = 0;
+};
+
 struct BakedGroup {
     Material material; // what the new one is made from
+    std::vector<BakedPart> parts;
     bool normals = false;
     bool surface = false; // occlusion, roughness, metalness
     bool emission = false;

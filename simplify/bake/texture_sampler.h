@@ -26,6 +26,8 @@ public:
                    const std::array<std::uint32_t, 3>& corners,
                    const glm::vec3& weights) const;
 
+    const TextureImages& images() const { return images_; }
+
     const std::vector<std::string>& notes() const { return images_.notes(); }
 
 private:

@@ -1,5 +1,6 @@
 #include "simplify/collapse/edge_collapse_source.h"
 
+#include "simplify/bake/bake.h"
 #include "simplify/collapse/read_ends.h"
 #include "simplify/collapse/seam_count.h"
 #include "simplify/geomorph.h"
@@ -56,9 +57,8 @@ public:
 
     std::vector<std::string> notes() const override { return set_->notes; }
 
-    bool transfersTextures() const override { return set_->bake.has_value(); }
-
-    Result<BakedScene> transferred(const Lod& lod, const JobContext& job) const override;
+    Result<BakedScene>
+    transferred(const Lod& lod, const BakeOptions& options, const JobContext& job) const override;
 
 private:
     // The first position that fits, by bisection; positionCount() if none does.
@@ -231,9 +231,9 @@ Geomorph EdgeCollapseSource::geomorph(std::uint64_t fine, std::uint64_t coarse) 
     return geomorph;
 }
 
-Result<BakedScene> EdgeCollapseSource::transferred(const Lod& lod, const JobContext& job) const {
-    if (!set_->bake)
-        return LodSource::transferred(lod, job);
+Result<BakedScene> EdgeCollapseSource::transferred(const Lod& lod,
+                                                   const BakeOptions& options,
+                                                   const JobContext& job) const {
     std::vector<BakeSubmesh> submeshes(set_->sequences.size());
     for (std::size_t s = 0; s < submeshes.size(); ++s) {
         const SubmeshState state = schedule_.stateAt(s, lod.position);
@@ -243,7 +243,7 @@ Result<BakedScene> EdgeCollapseSource::transferred(const Lod& lod, const JobCont
                         set_->removals[s].pivot,
                         set_->max_stretch[s]};
     }
-    return bakeTextures(*set_->scene, lod, submeshes, *set_->bake, job);
+    return bakeTextures(*set_->scene, lod, submeshes, options, job);
 }
 
 // Sets set.max_stretch, too.
@@ -293,7 +293,6 @@ Result<LodSourcePtr> prepareEdgeCollapse(ScenePtr scene,
     const auto start = std::chrono::steady_clock::now();
     auto set = std::make_shared<SequenceSet>();
     set->scene = std::move(scene);
-    set->bake = options.bake;
     set->notes = options.notes;
     set->ranges = instanceRanges(*set->scene);
     const Bounds bounds = robustWorldBounds(*set->scene);

@@ -1,7 +1,6 @@
 #pragma once
 #include "scene/job_context.h"
 #include "scene/result.h"
-#include "simplify/bake/bake.h"
 #include "simplify/collapse/schedule.h"
 
 namespace lodestone {
@@ -12,8 +11,7 @@ struct EdgeCollapseOptions {
     bool weigh_instances = true;     // IAS; false: every submesh as if it stood alone, once
     bool remove_instances = true;    // below the floors
     bool remove_by_paper = false;    // of crowds only, once nothing is left to collapse
-    std::optional<BakeOptions> bake; // LODs that are written get textures of their own
-    std::vector<std::string> notes;  // of the source, for the user
+    std::vector<std::string> notes; // of the source, for the user
 };
 
 // Sequences for every submesh of the scene, then a schedule: what all edge-collapse methods share.

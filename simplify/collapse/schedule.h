@@ -1,6 +1,5 @@
 #pragma once
 // One global order of all steps of all submeshes, and what every position of it looks like.
-#include "simplify/bake/bake.h"
 #include "simplify/collapse/removal.h"
 #include "simplify/collapse/sequence.h"
 #include "simplify/lod_source.h"
@@ -15,7 +14,6 @@ struct SequenceSet {
     std::vector<RemovalSequence> removals;   // [submeshes] empty costs: nothing to remove
     std::vector<double> max_stretch;         // [submeshes] of its instances
     double diagonal = 1.0;                   // robust, world
-    std::optional<BakeOptions> bake;         // none: LODs keep their textures
     std::vector<std::string> notes;          // for the user
 };
 

@@ -1,5 +1,6 @@
 #include "simplify/ias/ias.h"
 
+#include "simplify/bake/bake_parameters.h"
 #include "simplify/collapse/prepare.h"
 
 #include <array>
@@ -65,6 +66,7 @@ Algorithm iasAlgorithm() {
     row.parameters.push_back(removalParameter());
     row.parameters.push_back(removalRuleParameter());
     row.parameters.push_back(switchParameter());
+    addBakeParameters(row.parameters);
     row.prepare = prepareIas;
     return row;
 }

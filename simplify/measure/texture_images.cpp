@@ -85,6 +85,12 @@ bool TextureImages::covers(const Geometry& geometry, const TextureRef& texture) 
            coordinatesOf(geometry, texture);
 }
 
+glm::ivec2 TextureImages::size(std::uint32_t image) const {
+    if (image >= images_.size() || !images_[image].rgba)
+        return {0, 0};
+    return {images_[image].width, images_[image].height};
+}
+
 glm::vec4 TextureImages::sample(const Geometry& geometry,
                                 const TextureRef& texture,
                                 const std::array<std::uint32_t, 3>& corners,

@@ -17,6 +17,9 @@ public:
     // Whether there are texels and the geometry has coordinates for them.
     bool covers(const Geometry& geometry, const TextureRef& texture) const;
 
+    // Width and height in texels; 0 for what is not there.
+    glm::ivec2 size(std::uint32_t image) const;
+
     // Bilinear or nearest, wrapped as the reference says; white where nothing covers the geometry.
     // Linear: Srgb decodes red, green and blue. corners: vertices of the geometry.
     glm::vec4 sample(const Geometry& geometry,

@@ -1,5 +1,6 @@
 #include "simplify/quadric/quadric.h"
 
+#include "simplify/bake/bake_parameters.h"
 #include "simplify/collapse/prepare.h"
 
 namespace lodestone {
@@ -38,6 +39,7 @@ Algorithm quadricAlgorithm() {
     row.summary = "Collapses the edges of the de-instanced scene, as instancing-blind tools do.";
     row.expands = true;
     row.parameters = collapseParameters();
+    addBakeParameters(row.parameters);
     row.prepare = prepareQuadric;
     return row;
 }
@@ -54,6 +56,7 @@ Algorithm quadricSubmeshAlgorithm() {
     row.parameters = collapseParameters();
     row.parameters.push_back(removalParameter());
     row.parameters.push_back(removalRuleParameter());
+    addBakeParameters(row.parameters);
     row.prepare = prepareQuadricSubmesh;
     return row;
 }

@@ -1,5 +1,6 @@
 #include "simplify/wild/wild.h"
 
+#include "simplify/bake/bake_parameters.h"
 #include "simplify/collapse/collapse_method.h"
 #include "simplify/collapse/parameters.h"
 #include "simplify/collapse/prepare.h"
@@ -96,9 +97,6 @@ Result<LodSourcePtr> prepareWild(const ScenePtr& scene,
     VirtualEdgeOptions virtual_edges;
     virtual_edges.epsilon = value("epsilon") / 100.0;
     virtual_edges.rule = static_cast<VirtualEdgeRule>(value("virtual-edges"));
-    if (value("texture") > 0.5)
-        options.bake = BakeOptions{
-            static_cast<std::uint32_t>(value("atlas")), value("merge-materials") > 0.5, {}};
     options.collapse.boundary_weight = 0.0; // the area term stands in for it
     options.collapse.attributes = {0.0, 0.0, 0.0};
     options.collapse.method = std::make_shared<const WildMethod>(input.scene, wild, virtual_edges);
@@ -146,21 +144,10 @@ std::vector<ParameterInfo> wildParameters() {
     floors.kind = ParameterInfo::Kind::Toggle;
     floors.label = "Floors";
     floors.tooltip = "Keep at least four triangles and most of the extent of every submesh.";
-    ParameterInfo texture = choice("texture", {"keep", "transfer"});
-    texture.label = "Texture";
-    texture.tooltip = "Keep the texture coordinates, or bake new textures when the LOD is written.";
-    ParameterInfo atlas = number("atlas", 8192.0, 1024.0);
-    atlas.kind = ParameterInfo::Kind::Integer;
-    atlas.label = "Atlas size";
-    atlas.unit = "px";
-    atlas.minimum = 256.0;
-    atlas.logarithmic = true;
-    atlas.tooltip = "Side of each baked texture.";
-    ParameterInfo merge = number("merge-materials", 1.0, 0.0);
-    merge.kind = ParameterInfo::Kind::Toggle;
-    merge.label = "One atlas for all";
-    merge.tooltip = "Materials that blend alike share one atlas and become one.";
-    return {epsilon, rule, area, checks, scope, floors, texture, atlas, merge, removalParameter()};
+    std::vector<ParameterInfo> parameters{
+        epsilon, rule, area, checks, scope, floors, removalParameter()};
+    addBakeParameters(parameters);
+    return parameters;
 }
 
 } // namespace

@@ -77,12 +77,14 @@ struct Transferred {
 };
 
 Transferred transfer(const ScenePtr& scene, double ratio, const JobContext& job = {}) {
-    const ParameterValues values{{"texture", 1.0}, {"atlas", 512.0}, {"floors", 0.0}};
+    const ParameterValues values{{"floors", 0.0}};
     Transferred result{*wildAlgorithm().prepare(scene, values, {}, {}), {}, {}};
     const ByteModel bytes(result.source->scene(), {});
     result.lod = result.source->readOut(
         result.source->resolve({Target::Kind::Ratio, ratio}, bytes).position, nullptr);
-    result.baked = result.source->transferred(result.lod, job);
+    BakeOptions options;
+    options.atlas_px = 512;
+    result.baked = result.source->transferred(result.lod, options, job);
     return result;
 }
 
