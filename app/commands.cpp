@@ -202,6 +202,8 @@ void run(Document& document, const SetLaneParameter& command) {
         if (stored == value)
             return;
         stored = value;
+        if (info->of_textures)
+            return; // of the same LOD
         lane->settings.position.reset();
         ++lane->revision;
     });

@@ -14,8 +14,8 @@ constexpr std::array<std::string_view, 3> kFirstLanes = {"", "ias", "quadric"};
 } // namespace
 
 std::string_view jobKindName(JobKind kind) {
-    constexpr std::array<std::string_view, 6> kNames = {
-        "load", "prepare", "export", "measure", "predict", "error map"};
+    constexpr std::array<std::string_view, 7> kNames = {
+        "load", "prepare", "export", "measure", "predict", "error map", "texture"};
     return kNames.at(static_cast<std::size_t>(kind));
 }
 

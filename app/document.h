@@ -22,7 +22,7 @@ enum class LoadState : std::uint8_t { Empty, Loading, Loaded };
 
 using JobId = std::uint64_t;
 
-enum class JobKind : std::uint8_t { Load, Prepare, Export, Measure, Predict, ErrorMap };
+enum class JobKind : std::uint8_t { Load, Prepare, Export, Measure, Predict, ErrorMap, Texture };
 
 std::string_view jobKindName(JobKind kind);
 

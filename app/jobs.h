@@ -29,8 +29,14 @@ struct PredictedSizes {
     std::shared_ptr<const ByteModel> model;
 };
 
-using JobResult = std::
-    variant<LoadedScene, PreparedSource, ExportReport, Distance, PredictedSizes, ReadOut, ErrorMap>;
+using JobResult = std::variant<LoadedScene,
+                               PreparedSource,
+                               ExportReport,
+                               Distance,
+                               PredictedSizes,
+                               ReadOut,
+                               ErrorMap,
+                               LaneTexturesPtr>;
 
 struct JobSpec {
     JobKind kind = JobKind::Load;

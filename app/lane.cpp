@@ -13,6 +13,12 @@ bool operator==(const LaneSettings& a, const LaneSettings& b) {
            a.follows_master == b.follows_master && a.colour == b.colour;
 }
 
+DrawnLod drawnLod(const LaneStatus& status) {
+    if (status.textures && status.textures->lod_revision == status.lod_revision)
+        return {status.textures->baked.scene, status.textures->lod};
+    return {status.scene, status.lod};
+}
+
 std::string_view laneStateName(LaneState state) {
     constexpr std::array<std::string_view, 5> kNames = {
         "idle", "queued", "building", "ready", "failed"};

@@ -1,6 +1,7 @@
 #pragma once
 // A lane: algorithm + parameters + target, and what has become of it.
 #include "app/error_map.h"
+#include "app/lane_textures.h"
 #include "simplify/algorithm.h"
 #include "simplify/measure/distance.h"
 
@@ -45,10 +46,14 @@ struct LaneNumbers {
     std::uint64_t triangles = 0; // kept instances counted
     std::uint64_t unique_triangles = 0;
     std::uint64_t instances = 0;
-    double ratio = 1.0;                // of the original's instanced triangles
-    std::uint64_t predicted_bytes = 0; // exact, with the document's export options
-    double error_estimate = 0.0;       // % of the diagonal
-    std::string note;                  // why the target was missed; empty if met
+    double ratio = 1.0; // of the original's instanced triangles
+    // With the document's export options: exact, but for what isEstimated() names and for textures
+    // that are still to be transferred.
+    std::uint64_t predicted_bytes = 0;
+    bool bytes_estimated = false; // such textures count in predicted_bytes
+    std::uint64_t kept_bytes = 0; // predicted_bytes with the textures that the scene has
+    double error_estimate = 0.0;  // % of the diagonal
+    std::string note;             // why the target was missed; empty if met
 };
 
 // By the papers' protocol: drawn off screen again and again.
@@ -75,7 +80,19 @@ struct LaneStatus {
     ErrorMap error_map;               // of an earlier `lod` while a newer one is made
     std::optional<double> flip; // image difference in the present view; filled in by the window
     double frame_ms = 0.0;      // this lane's own draw; filled in by the window, 0: unknown
+    LaneTexturesPtr textures;   // transferred; of an earlier `lod` or options while newer are made
+    std::optional<double> texture_progress; // 0..1 while textures are transferred
+    std::string texture_failure;            // why there are none; one line, empty: nothing wrong
 };
+
+// What a view draws of a lane.
+struct DrawnLod {
+    ScenePtr scene;
+    std::shared_ptr<const Lod> lod;
+};
+
+// The LOD with its transferred textures; those it has kept while there are none of this LOD.
+DrawnLod drawnLod(const LaneStatus& status);
 
 struct Lane {
     LaneId id = kNoLane;

@@ -84,6 +84,8 @@ void LaneWorker::trimCaches(const Document& document) {
         used.push_back(work_[lane.id].key);
         if (lane.status.scene)
             scenes.push_back(lane.status.scene);
+        if (lane.status.textures)
+            scenes.push_back(lane.status.textures->baked.scene);
     }
     sources_.trim(document.scene, used);
     byte_models_.trim(scenes);
@@ -190,8 +192,8 @@ bool LaneWorker::showOriginal(const Document& document, Lane& lane, Work& work) 
     const ByteModelPtr bytes = byteModel(document.scene, document.export_options);
     if (changed || work.shown.bytes != bytes) {
         work.shown.bytes = bytes;
-        status.numbers.predicted_bytes =
-            bytes ? bytes->bytes(shapeOf(*document.scene, *full_lod_)) : 0;
+        status.numbers.kept_bytes = bytes ? bytes->bytes(shapeOf(*document.scene, *full_lod_)) : 0;
+        status.numbers.predicted_bytes = status.numbers.kept_bytes;
         changed = true;
     }
     return changed;
@@ -442,7 +444,8 @@ void LaneWorker::commitReadOut(const Document& document, Lane& lane, Work& work,
     status.source = source;
     status.scene = source->scene();
     status.build_seconds = source->seconds_sequence + source->seconds_schedule;
-    status.numbers.predicted_bytes = read_out.predicted_bytes;
+    status.numbers.kept_bytes = read_out.predicted_bytes;
+    status.numbers.predicted_bytes = status.numbers.kept_bytes;
     status.numbers.error_estimate = read_out.error_estimate;
     status.numbers.note = std::move(read_out.resolved.note);
     status.readout_ms = read_out.seconds * 1000.0;

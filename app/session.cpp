@@ -4,6 +4,7 @@
 #include "app/json_text.h"
 #include "app/lane_worker.h"
 #include "app/recent.h"
+#include "app/texture_jobs.h"
 #include "scene/generate.h"
 #include "scene/import.h"
 
@@ -30,11 +31,33 @@ Result<JobResult> loadSample(const std::string& name, std::uint64_t seed) {
     return JobResult(describeScene(std::move(*scene), {}));
 }
 
-Result<JobResult> writeLod(const ScenePtr& scene,
-                           const std::shared_ptr<const Lod>& lod,
+// What an export writes: what a lane shows or, where its textures are still to be transferred, what
+// it will show then.
+struct Written {
+    DrawnLod shown;
+    std::optional<LaneTexturesInput> textures;
+};
+
+Written writtenOf(const Lane& lane) {
+    const LaneStatus& status = lane.status;
+    const std::optional<BakeOptions> wanted = wantedTextures(lane.settings);
+    if (!wanted || hasTextures(status, *wanted) || !status.source)
+        return {drawnLod(status), std::nullopt};
+    return {{}, LaneTexturesInput{status.source, status.lod, *wanted, status.lod_revision}};
+}
+
+Result<JobResult> writeLod(Written written,
                            const std::filesystem::path& path,
-                           const ExportOptions& options) {
-    Result<ExportReport> report = exportScene(*scene, *lod, path, options);
+                           const ExportOptions& options,
+                           const JobContext& context) {
+    if (written.textures) {
+        const Result<LaneTexturesPtr> textures = makeLaneTextures(*written.textures, context);
+        if (!textures)
+            return tl::unexpected<Error>(textures.error());
+        written.shown = {(*textures)->baked.scene, (*textures)->lod};
+    }
+    Result<ExportReport> report =
+        exportScene(*written.shown.scene, *written.shown.lod, path, options);
     if (!report)
         return tl::unexpected<Error>(std::move(report.error()));
     return JobResult(std::move(*report));
@@ -61,6 +84,7 @@ struct Session::Impl {
     JobQueue jobs;
     LaneWorker lanes;
     ErrorMapJobs error_maps;
+    TextureJobs textures;
     std::map<JobId, std::filesystem::path> export_paths;
     std::map<JobId, std::uint64_t> export_revisions; // of the document at the start
     std::uint64_t logged_messages = 0;
@@ -68,7 +92,8 @@ struct Session::Impl {
 
     explicit Impl(Options session_options)
         : options(std::move(session_options)), log(options.log_file),
-          jobs(options.worker_threads, options.wake), lanes(jobs), error_maps(jobs) {
+          jobs(options.worker_threads, options.wake), lanes(jobs), error_maps(jobs),
+          textures(jobs, lanes) {
         if (!options.recent_file.empty())
             document.recent = readRecent(options.recent_file);
     }
@@ -104,11 +129,10 @@ struct Session::Impl {
         spec.kind = JobKind::Export;
         spec.lane = lane->id;
         spec.label = fmt::format("Writing {}", command.path.filename().string());
-        spec.run = [scene = lane->status.scene,
-                    lod = lane->status.lod,
+        spec.run = [written = writtenOf(*lane),
                     path = command.path,
-                    export_options = document.export_options](const JobContext&) {
-            return writeLod(scene, lod, path, export_options);
+                    export_options = document.export_options](const JobContext& context) {
+            return writeLod(written, path, export_options, context);
         };
         const JobId id = jobs.start(std::move(spec));
         export_paths[id] = command.path;
@@ -159,6 +183,8 @@ struct Session::Impl {
     void afterCancel(const JobStatus& job) {
         if (job.kind == JobKind::ErrorMap)
             error_maps.cancelled(document, job.lane);
+        if (job.kind == JobKind::Texture)
+            textures.cancelled(document, job.lane);
         if (job.kind == JobKind::Prepare)
             lanes.markCancelled(document, job.lane);
         if (job.kind == JobKind::Predict)
@@ -171,7 +197,10 @@ struct Session::Impl {
         export_revisions.erase(job.id);
     }
 
-    void run(const RetryLane& command) { lanes.retry(command.lane); }
+    void run(const RetryLane& command) {
+        lanes.retry(command.lane);
+        textures.retry(command.lane);
+    }
 
     void run(const FrameScene& command) {
         if (framing && document.scene)
@@ -209,6 +238,9 @@ struct Session::Impl {
             break;
         case JobKind::ErrorMap:
             error_maps.commit(document, finished);
+            break;
+        case JobKind::Texture:
+            textures.commit(document, finished);
             break;
         }
     }
@@ -275,7 +307,7 @@ void Session::Impl::logLane(const Lane& lane, std::size_t index) {
             "\"index\":{},\"algorithm\":{},\"state\":{},\"lod\":{},"
             "\"triangles\":{},\"unique_triangles\":{},\"instances\":{},"
             "\"ratio\":{:.6f},\"slides\":{},\"bytes\":{},\"measured\":{},\"rate\":{},\"error_"
-            "map\":{},\"flip\":{:.6f},\"note\":{}",
+            "map\":{},\"flip\":{:.6f},\"textures\":{},\"atlas\":{},\"exact\":{},\"note\":{}",
             index,
             jsonText(lane.settings.algorithm ? lane.settings.algorithm->id
                                              : std::string_view("original")),
@@ -291,6 +323,9 @@ void Session::Impl::logLane(const Lane& lane, std::size_t index) {
             status.rate ? status.rate->frames : 0,
             status.error_map.lod_revision,
             status.flip.value_or(-1.0),
+            status.textures ? status.textures->lod_revision : 0,
+            status.textures ? status.textures->options.atlas_px : 0,
+            !numbers.bytes_estimated,
             jsonText(numbers.note)));
 }
 
@@ -372,6 +407,7 @@ bool Session::update(CommandQueue& commands) {
     }
     followView(impl.document);
     changed |= impl.lanes.refresh(impl.document);
+    changed |= impl.textures.refresh(impl.document);
     impl.document.jobs = impl.jobs.status();
     impl.error_maps.start(impl.document);
     impl.document.jobs = impl.jobs.status();
@@ -396,9 +432,9 @@ std::uint64_t Session::predictedBytes(LaneId lane_id, const ExportOptions& optio
     const Lane* lane = impl_->document.findLane(lane_id);
     if (!lane || !lane->status.lod)
         return 0;
-    const LaneStatus& status = lane->status;
-    const ByteModelPtr model = impl_->lanes.byteModel(status.scene, options);
-    return model ? model->bytes(shapeOf(*status.scene, *status.lod)) : 0;
+    const DrawnLod shown = drawnLod(lane->status);
+    const ByteModelPtr model = impl_->lanes.byteModel(shown.scene, options);
+    return model ? model->bytes(shapeOf(*shown.scene, *shown.lod)) : 0;
 }
 
 void Session::setFrameTime(LaneId lane_id, double frame_ms) {

@@ -14,8 +14,9 @@ BuildKey buildKey(const ScenePtr& scene, const LaneSettings& settings) {
     BuildKey key{scene, settings.algorithm, {}};
     if (settings.algorithm)
         for (const ParameterInfo& info : settings.algorithm->parameters)
-            key.parameters[std::string(info.id)] =
-                parameterValue(*settings.algorithm, settings.parameters, info.id);
+            if (!info.of_textures)
+                key.parameters[std::string(info.id)] =
+                    parameterValue(*settings.algorithm, settings.parameters, info.id);
     return key;
 }
 

@@ -4,7 +4,8 @@
 
 namespace lodestone {
 
-// What a source is built from. Parameters complete: defaults filled in.
+// What a source is built from. Parameters complete, defaults filled in, but for those that speak of
+// textures, which are made from LODs.
 struct BuildKey {
     ScenePtr scene;
     const Algorithm* algorithm = nullptr;

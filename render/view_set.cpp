@@ -157,7 +157,8 @@ void ViewSet::forgetUnwanted(std::span<const Wanted> wanted) {
     });
     std::erase_if(scenes_, [&](const auto& entry) {
         return std::none_of(wanted.begin(), wanted.end(), [&](const Wanted& lane) {
-            return lane.scene.get() == entry.first || lane.marked_scene.get() == entry.first;
+            return lane.scene.get() == entry.first || lane.marked_scene.get() == entry.first ||
+                   lane.kept_scene.get() == entry.first;
         });
     });
     if (marks_.lod && std::ranges::find(wanted, marks_.lod, &Wanted::marked_lod) == wanted.end())

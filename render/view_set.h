@@ -28,6 +28,7 @@ public:
         // Set: highlighted are those of this LOD of another scene (see View::Input).
         ScenePtr marked_scene = nullptr;
         std::shared_ptr<const Lod> marked_lod = nullptr; // set as marked_scene is; one in all lanes
+        ScenePtr kept_scene = nullptr; // stays on the GPU though it is not drawn: it may be soon
     };
 
     struct Picture {

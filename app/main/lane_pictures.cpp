@@ -1,5 +1,6 @@
 #include "app/main/lane_pictures.h"
 
+#include "app/main/texture_id.h"
 #include "app/main/view_values.h"
 
 #include <algorithm>
@@ -7,12 +8,6 @@
 namespace lodestone {
 
 namespace {
-
-// What Dear ImGui calls a texture.
-ImTextureID textureId(TextureHandle texture) {
-    // NOLINTNEXTLINE(performance-no-int-to-ptr)
-    return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture));
-}
 
 constexpr double kPictureBudgetMs = 25.0;
 constexpr double kPicturesDoneMs = 45.0; // after the frame began; what is left is for its output
@@ -41,16 +36,21 @@ std::vector<ViewSet::Wanted> LanePictures::wantedPictures(const Document& docume
         // Pictures that are compared have one size: cells of a grid differ by a pixel.
         const ui::ViewRequest& sized = differences ? views.front() : view;
         const bool drafted = !differences && now < rests_at_[lane->id];
-        wanted.push_back({view.lane,
-                          status.scene,
-                          heat && status.error_map.lod ? status.error_map.lod : status.lod,
-                          drafted ? drafts_.draftOf(document, *lane) : nullptr,
-                          {sized.width_px, sized.height_px},
-                          {}});
-        if (differences || highlighted.empty() || !status.scene)
+        const std::shared_ptr<const Lod> draft =
+            drafted ? drafts_.draftOf(document, *lane) : nullptr;
+        DrawnLod shown = drawnLod(status);
+        if (draft)
+            shown = {status.scene, status.lod};
+        if (heat && status.error_map.lod)
+            shown = {status.scene, status.error_map.lod};
+        wanted.push_back(
+            {view.lane, shown.scene, shown.lod, draft, {sized.width_px, sized.height_px}, {}});
+        if (shown.scene != status.scene)
+            wanted.back().kept_scene = status.scene;
+        if (differences || highlighted.empty() || !shown.scene)
             continue;
         wanted.back().highlighted = highlighted;
-        if (status.scene != document.scene) { // it has dissolved submeshes and instances
+        if (shown.scene != document.scene) { // it has dissolved submeshes and instances
             wanted.back().marked_scene = document.scene;
             wanted.back().marked_lod = fullOriginal(document);
         }
@@ -178,7 +178,7 @@ void LanePictures::measureNext(Session& session) {
 LaneId LanePictures::laneToPickFrom(const Document& document, LaneId lane_id) const {
     const auto shows_original = [&](LaneId id) {
         const Lane* const lane = document.findLane(id);
-        return lane && lane->status.scene == document.scene;
+        return lane && drawnLod(lane->status).scene == document.scene;
     };
     if (shows_original(lane_id))
         return lane_id;

@@ -2,6 +2,8 @@
 
 #include "app/frame_times.h"
 #include "app/main/lane_pictures.h"
+#include "app/main/preview_textures.h"
+#include "app/main/texture_id.h"
 #include "ui/host.h"
 #include "ui/window.h"
 
@@ -30,6 +32,9 @@ public:
         };
         facts_.pickBox = [this](LaneId lane, const glm::dvec2& min, const glm::dvec2& max) {
             return pictures_.pickBox(session_.document(), lane, {min, max});
+        };
+        facts_.preview = [this](const LaneTexturesPtr& textures, const ImagePreview& preview) {
+            return textureId(previews_.of(textures, preview));
         };
         facts_.renderer = shortRendererName(context.info().renderer);
         if (request.file)
@@ -102,6 +107,7 @@ private:
         clearWindow(
             {facts_.width_px, facts_.height_px, 0x14 / 255.0f, 0x17 / 255.0f, 0x1b / 255.0f});
         host_.endFrame();
+        previews_.endFrame();
         context_.swapBuffers();
         finishFrame();
     }
@@ -136,6 +142,7 @@ private:
     GlContext& context_;
     Session& session_;
     LanePictures pictures_;
+    PreviewTextures previews_;
     ui::Host host_;
     ui::Window window_;
     ui::WindowFacts facts_;

@@ -1,0 +1,28 @@
+#include "app/main/preview_textures.h"
+
+namespace lodestone {
+
+TextureHandle PreviewTextures::of(const LaneTexturesPtr& owner, const ImagePreview& preview) {
+    if (preview.empty())
+        return 0;
+    const auto [found, fresh] = entries_.try_emplace(&preview);
+    Entry& entry = found->second;
+    entry.used = true;
+    if (fresh) {
+        entry.owner = owner;
+        Pixels pixels;
+        pixels.width = preview.width;
+        pixels.height = preview.height;
+        pixels.rgba = preview.rgba;
+        entry.texture.upload(pixels);
+    }
+    return entry.texture.texture();
+}
+
+void PreviewTextures::endFrame() {
+    std::erase_if(entries_, [](const auto& item) { return !item.second.used; });
+    for (auto& item : entries_)
+        item.second.used = false;
+}
+
+} // namespace lodestone
