@@ -97,7 +97,9 @@ void drawTitles(const Ui& ui, const ImVec2& begin, float width) {
 void drawCells(
     const Ui& ui, const PanelInput& input, const Lane& lane, const ImVec2& begin, float width) {
     const auto cells = cellsOf(lane);
-    const char* const certainty = isEstimated(input.document.export_options) ? "about" : "exact";
+    const bool estimated =
+        isEstimated(input.document.export_options) || lane.status.numbers.bytes_estimated;
+    const char* const certainty = estimated ? "about" : "exact";
     const float y = begin.y;
     for (std::size_t at = 0; at < cells.size(); ++at) {
         float right = begin.x + width * static_cast<float>(kColumns[at].right);

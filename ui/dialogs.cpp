@@ -3,6 +3,7 @@
 #include "ui/lane_text.h"
 #include "ui/panels.h"
 #include "ui/shortcuts.h"
+#include "ui/texture_section.h"
 #include "ui/widgets.h"
 
 #include <algorithm>
@@ -30,6 +31,8 @@ const char* dialogName(Dialog dialog) {
         return "About";
     case Dialog::Quit:
         return "Quit";
+    case Dialog::Textures:
+        return "Textures";
     }
     return "";
 }
@@ -376,6 +379,10 @@ void drawDialogs(Ui ui, const PanelInput& input, WindowState& state) {
         break;
     case Dialog::Quit:
         drawQuit(ui, input, state);
+        break;
+    case Dialog::Textures:
+        if (drawTexturePair(ui, input, state) == DialogStep::Close)
+            close(state);
         break;
     }
     if (state.dialog != Dialog::None && !opens &&

@@ -11,7 +11,10 @@ std::string changedParameters(const LaneSettings& settings) {
     std::string text;
     for (const ParameterInfo& parameter : settings.algorithm->parameters) {
         const double value = parameterValue(*settings.algorithm, settings.parameters, parameter.id);
-        if (value == parameter.fallback)
+        const bool counts =
+            parameter.needs.empty() ||
+            parameterValue(*settings.algorithm, settings.parameters, parameter.needs) != 0.0;
+        if (value == parameter.fallback || !counts)
             continue;
         char number[32] = "";
         std::snprintf(number, sizeof number, "%.3g", value);

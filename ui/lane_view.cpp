@@ -130,7 +130,7 @@ FooterWords footerWords(const Document& document, const Lane& lane) {
         return words;
     words.triangles = formatCount(numbers.triangles);
     words.ratio = formatRatio(numbers.ratio);
-    const bool estimated = isEstimated(document.export_options);
+    const bool estimated = isEstimated(document.export_options) || numbers.bytes_estimated;
     words.size = (estimated ? "~" : "") + formatBytes(numbers.predicted_bytes);
     if (lane.status.frame_ms > 0.0) {
         words.time = formatMilliseconds(lane.status.frame_ms);
@@ -202,7 +202,7 @@ void drawLaneFooter(const Ui& ui, const Document& document, const Lane& lane, co
 
 namespace {
 
-void drawBusy(const Ui& ui, const Lane& lane, const Area& area) {
+void drawBusy(const Ui& ui, const Lane& lane, double progress, const Area& area) {
     const LaneStatus& status = lane.status;
     const ImU32 colour = packed(lane.settings.colour);
     const ImVec2 middle = area.position + ImVec2(area.size.x * 0.5f, area.size.y * 0.5f);
@@ -220,7 +220,7 @@ void drawBusy(const Ui& ui, const Lane& lane, const Area& area) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(begin, area.end(), color::kHairline);
     list.AddRectFilled(
-        begin, {begin.x + area.size.x * static_cast<float>(status.progress), area.end().y}, colour);
+        begin, {begin.x + area.size.x * static_cast<float>(progress), area.end().y}, colour);
 }
 
 void drawFailure(const Ui& ui, const Lane& lane, const Area& area) {
@@ -272,7 +272,10 @@ void drawLaneState(
     const Ui& ui, WindowState& state, const Lane& lane, bool draft, const Area& area) {
     const LaneStatus& status = lane.status;
     if (status.state == LaneState::Building || status.state == LaneState::Queued) {
-        drawBusy(ui, lane, area);
+        drawBusy(ui, lane, status.progress, area);
+        state.animate();
+    } else if (status.texture_progress) {
+        drawBusy(ui, lane, *status.texture_progress, area);
         state.animate();
     } else if (status.state == LaneState::Failed) {
         drawFailure(ui, lane, area);

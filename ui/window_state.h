@@ -35,6 +35,8 @@ struct WindowFacts {
     std::uint64_t frame = 0; // drawn so far
     // What is seen at a point of a lane's view: 0..1 from the left and from the top.
     std::function<std::optional<SelectedItem>(LaneId, const glm::dvec2&)> pick;
+    // A texture of a lane's as a picture, row 0 at the bottom; nullptr: it cannot be shown.
+    std::function<ImTextureID(const LaneTexturesPtr&, const ImagePreview&)> preview;
     // All that is between two corners, the upper left one first.
     std::function<std::vector<SelectedItem>(LaneId, const glm::dvec2&, const glm::dvec2&)> pickBox;
 };
@@ -53,7 +55,7 @@ struct PanelInput {
     }
 };
 
-enum class Dialog : std::uint8_t { None, Open, Export, Shortcuts, About, Quit };
+enum class Dialog : std::uint8_t { None, Open, Export, Shortcuts, About, Quit, Textures };
 
 struct ExportForm {
     std::string path;
@@ -105,6 +107,7 @@ struct WindowState {
     int cell_count = 0;               // views in the grid; 0: one for each lane
     FileBrowser browser;
     ExportForm export_form;
+    int shown_atlas = 0; // of the active lane, beside what it was made from
     SizeCurves curves;
     std::vector<ViewRequest> views; // of this frame
     std::uint64_t seen_message = 0; // sequence of the newest message when its toast was closed
