@@ -8,9 +8,9 @@ namespace lodestone {
 struct EdgeCollapseOptions {
     CollapseOptions collapse;
     FloorOptions floors;
-    bool weigh_instances = true;     // IAS; false: every submesh as if it stood alone, once
-    bool remove_instances = true;    // below the floors
-    bool remove_by_paper = false;    // of crowds only, once nothing is left to collapse
+    bool weigh_instances = true;    // IAS; false: every submesh as if it stood alone, once
+    bool remove_instances = true;   // below the floors
+    bool remove_by_paper = false;   // of crowds only, once nothing is left to collapse
     std::vector<std::string> notes; // of the source, for the user
 };
 

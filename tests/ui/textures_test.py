@@ -33,6 +33,13 @@ def transfer(window):
     window.click("Inspector/Textures/transfer")
 
 
+def picture(window, name):
+    """A view without a tooltip over it."""
+    window.move(60, 300)
+    window.wait_still()
+    return window.picture(window.rect(name))
+
+
 def wait_transferred(window):
     window.wait("textures of the LOD shown",
                 lambda: window.lane("ias")["textures"] == window.lane("ias")["lod"])
@@ -42,12 +49,10 @@ def test_a_lane_shows_transferred_textures_and_keeps_them_again(_):
     with open_model("Duck/Duck.glb") as window:
         name = f"View {window.lane_id('ias')}/picture"
         window.click(name)  # it gets a frame and a selection, which stay
-        window.wait_still()
-        kept, kept_bytes = window.picture(window.rect(name)), window.lane("ias")["bytes"]
+        kept, kept_bytes = picture(window, name), window.lane("ias")["bytes"]
         window.click("Inspector/Textures/transfer")
         wait_transferred(window)
-        window.wait_still()
-        moved = window.picture(window.rect(name))
+        moved = picture(window, name)
         assert differing_share(kept, moved) > 0.001, "the lane draws its old textures"
         assert coloured_share(moved) > 0.8 * coloured_share(kept), "the duck lost its colour"
         assert window.lane("original")["textures"] == 0 and window.lane("quadric")["textures"] == 0
@@ -55,8 +60,7 @@ def test_a_lane_shows_transferred_textures_and_keeps_them_again(_):
         window.click("Inspector/Textures/keep UVs")
         window.wait("none", lambda: window.lane("ias")["textures"] == 0)
         window.wait("the size before", lambda: window.lane("ias")["bytes"] == kept_bytes)
-        window.wait_still()
-        assert differing_share(kept, window.picture(window.rect(name))) < 0.001
+        assert differing_share(kept, picture(window, name)) < 0.001
         window.key("ctrl+z")
         wait_transferred(window)
 
