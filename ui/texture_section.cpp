@@ -93,14 +93,8 @@ void drawPair(const Ui& ui,
     caption(ui, right + below, side, "atlas", pair.after_px);
 }
 
-void drawProgress(const Ui& ui, const Lane& lane, double progress) {
+void drawProgress(const Ui& ui, double progress) {
     labelledValue(ui, "Transferring", std::to_string(static_cast<int>(progress * 100.0)) + " %");
-    progressLine(ui,
-                 ImGui::GetCursorScreenPos(),
-                 ImGui::GetContentRegionAvail().x,
-                 progress,
-                 packed(lane.settings.colour));
-    ImGui::Dummy({0, ui.px(6)});
 }
 
 void drawFailure(const Ui& ui, const Lane& lane) {
@@ -113,7 +107,7 @@ void drawFailure(const Ui& ui, const Lane& lane) {
         ui.push(RetryLane{lane.id});
 }
 
-// How fine the texels are, and the first pair small.
+// How fine the texels are, or how far newer ones have come, and the first pair small.
 void drawResult(const Ui& ui, const PanelInput& input, WindowState& state, const Lane& lane) {
     const LaneTexturesPtr& textures = lane.status.textures;
     if (textures->previews.empty()) {
@@ -122,10 +116,13 @@ void drawResult(const Ui& ui, const PanelInput& input, WindowState& state, const
     }
     const auto coarsest =
         std::ranges::min_element(textures->previews, {}, &AtlasPreview::texels_per_unit);
-    labelledValue(ui,
-                  "Texels a unit",
-                  densityText(coarsest->texels_per_unit),
-                  relativeText(coarsest->texels_per_unit, coarsest->original_texels_per_unit));
+    if (lane.status.texture_progress)
+        drawProgress(ui, *lane.status.texture_progress);
+    else
+        labelledValue(ui,
+                      "Texels a unit",
+                      densityText(coarsest->texels_per_unit),
+                      relativeText(coarsest->texels_per_unit, coarsest->original_texels_per_unit));
     const float side = (ImGui::GetContentRegionAvail().x - ui.px(8)) * 0.5f;
     const ImVec2 begin = ImGui::GetCursorScreenPos();
     drawPair(ui, input, textures, textures->previews.front(), side);
@@ -151,12 +148,12 @@ void drawTextureSection(const Ui& ui,
         ui, ImGui::GetCursorScreenPos(), Align::Left, "Textures", {nullptr, color::kSecondary});
     ImGui::Dummy({0, ImGui::GetTextLineHeight() + ui.px(2)});
     keepOrTransfer(ui, lane);
-    if (lane.status.texture_progress)
-        drawProgress(ui, lane, *lane.status.texture_progress);
-    else if (!lane.status.texture_failure.empty())
+    if (!lane.status.texture_failure.empty())
         drawFailure(ui, lane);
     if (lane.status.textures)
         drawResult(ui, input, state, lane);
+    else if (lane.status.texture_progress)
+        drawProgress(ui, *lane.status.texture_progress);
     for (const ParameterInfo& parameter : parameters)
         if (parameter.of_textures && parameter.id != kTexture)
             parameterControl(ui, lane, parameter);

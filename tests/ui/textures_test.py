@@ -43,6 +43,7 @@ def picture(window, name):
 def wait_transferred(window):
     window.wait("textures of the LOD shown",
                 lambda: window.lane("ias")["textures"] == window.lane("ias")["lod"])
+    window.wait_frames(3)  # until what is told of them has moved the controls below it
 
 
 def test_a_lane_shows_transferred_textures_and_keeps_them_again(_):
