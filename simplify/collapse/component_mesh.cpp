@@ -327,8 +327,10 @@ void ComponentMesh::addBoundaryQuadrics(std::uint32_t a) {
                 continue;
             points_[b].mark = inner;
             --borders;
-            if (seamBetween(first, face, a) || seamBetween(first, face, b))
-                addBoundaryQuadric(a, b, first);
+            if (seamBetween(first, face, a) || seamBetween(first, face, b)) {
+                const bool has_plane = dot(normals_[first], normals_[first]) > 0.0f;
+                addBoundaryQuadric(a, b, has_plane ? first : face); // a sliver that sews has none
+            }
             if (has_outline)
                 addSilhouetteQuadric(a, b, normals_[first], normals_[face]);
         }

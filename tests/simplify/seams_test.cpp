@@ -107,6 +107,29 @@ GeometryPtr mirroredBowl() {
         *meshes::withAttribute(*bowl, "TEXCOORD_0", texcoords), "TANGENT", tangents);
 }
 
+// A square of one colour of a palette beside one of another; its side is divided, the other's is
+// not, and faces without area sew them together.
+GeometryPtr sewnSquares() {
+    constexpr std::uint32_t kSide = 4;
+    auto squares = std::make_shared<Geometry>(*meshes::grid(kSide)); // x, y: 0..1
+    std::vector<float> texcoords(2 * squares->positions.size(), 0.25f);
+    const auto add = [&](float x, float y) {
+        squares->positions.emplace_back(x, y, 0.0f);
+        texcoords.insert(texcoords.end(), {0.75f, 0.75f});
+        return static_cast<std::uint32_t>(squares->positions.size() - 1);
+    };
+    std::vector<std::uint32_t> side;
+    for (std::uint32_t i = 0; i <= kSide; ++i)
+        side.push_back(add(1.0f, static_cast<float>(i) / kSide));
+    const std::uint32_t low = add(2.0f, 0.0f);
+    const std::uint32_t high = add(2.0f, 1.0f);
+    std::vector<std::uint32_t> indices{side[0], low, high, side[0], high, side[kSide]};
+    for (std::uint32_t i = 2; i <= kSide; ++i) // no area
+        indices.insert(indices.end(), {side[0], side[i], side[i - 1]});
+    squares->indices.insert(squares->indices.begin(), indices.begin(), indices.end());
+    return meshes::withAttribute(*squares, "TEXCOORD_0", texcoords);
+}
+
 // Twice the area of a face's triangle in its texture.
 float texturedArea(const Geometry& geometry, std::size_t face) {
     const Attribute& texcoords = *findAttribute(geometry.attributes, "TEXCOORD_0");
@@ -177,6 +200,24 @@ TEST(Seams, NoCrackOpensWhereEveryEdgeIsANormalSeam) {
 
 TEST(Seams, NoCrackOpensBetweenMaterials) {
     expectNoCrackAtAnyStep(twoMaterials());
+}
+
+TEST(Seams, ColoursKeepTheirAreaAcrossFacesWithoutAny) {
+    const Submesh submesh = submeshOf({sewnSquares()});
+    const CollapseSequence sequence = sequenceOf(submesh);
+    for (std::uint32_t step = 0; sequence.facesAt(step) > 8; ++step) {
+        const GeometryPtr now = readAt(sequence, submesh, step)[0];
+        const Attribute& texcoords = *findAttribute(now->attributes, "TEXCOORD_0");
+        double area = 0.0;
+        for (std::size_t i = 0; i < now->indices.size(); i += 3) {
+            const glm::vec3 a = now->positions[now->indices[i]];
+            const glm::vec3 b = now->positions[now->indices[i + 1]] - a;
+            const glm::vec3 c = now->positions[now->indices[i + 2]] - a;
+            if (attributeValue(texcoords, now->indices[i], 0) < 0.5f)
+                area += 0.5 * glm::length(glm::cross(b, c));
+        }
+        ASSERT_NEAR(area, 1.0, 1e-3) << sequence.facesAt(step) << " faces";
+    }
 }
 
 TEST(Seams, NormalsStayUnitVectors) {
