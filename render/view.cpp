@@ -317,14 +317,15 @@ ViewState::drawBudgeted(const View::Input& input, const PictureKey& key, double 
     }
     sliced_->totals.triangles += totals->triangles;
     sliced_->totals.draw_calls += totals->draw_calls;
-    sliced_->cost_ms += elapsedMs(begun);
     last_.complete = sliced_->cursor.finished;
-    if (!last_.complete)
+    if (!last_.complete) {
+        sliced_->cost_ms += elapsedMs(begun);
         return last_;
+    }
     endPicture(input);
     glFinish();
     last_.drew = true;
-    last_.cost_ms = sliced_->cost_ms;
+    last_.cost_ms = sliced_->cost_ms + elapsedMs(begun);
     last_.cost_known = true;
     last_.triangles = sliced_->totals.triangles;
     last_.draw_calls = sliced_->totals.draw_calls;

@@ -69,7 +69,9 @@ public:
     const CallWork& lastWork() const { return last_work_; }
 
     // Draws a lane again and again as it was last drawn (see View::measure). Blocks as long as the
-    // options say. Errors: Usage if it has no complete picture; those of View.
+    // options say; budget_s > 0. Where the CPU draws, a frame goes on in the next call where the
+    // budget ends (then fewer are counted, perhaps none), without a warm-up.
+    // Errors: Usage if it has no complete picture; those of View.
     Result<MeasureReport> measure(std::uint32_t key, const MeasureOptions& options);
     // Of a lane's last complete picture. Errors: as measure().
     Result<Pixels> readPixels(std::uint32_t key) const;
@@ -101,9 +103,10 @@ private:
         OrbitCamera camera;
         ViewOptions options;
         ViewSize size;
-        std::uint64_t drawn_at = 0; // turn of the last draw
-        bool drawn = false;         // it has a picture, perhaps of another state
-        bool complete = false;      // the picture shows what the members above say
+        std::uint64_t drawn_at = 0;  // turn of the last draw
+        bool drawn = false;          // it has a picture, perhaps of another state
+        bool complete = false;       // the picture shows what the members above say
+        bool measured_frame = false; // one of measure() is under way
     };
 
     Result<Item*> itemOf(std::uint32_t key);
@@ -126,6 +129,7 @@ private:
                           const OrbitCamera& camera,
                           const ViewOptions& options,
                           double budget_ms);
+    Result<MeasureReport> measureInSlices(Item& item, const MeasureOptions& options) const;
     static double costOf(const Item& item, const Wanted& wanted); // 0: unknown
 
     Renderer renderer_;

@@ -47,15 +47,10 @@ std::array<std::string, kColumns.size()> cellsOf(const Lane& lane) {
     }
     if (status.rate_wanted) {
         cells[3] = cells[4] = "\u2026";
-    } else if (status.rate) {
-        cells[3] = formatRate(1000.0 / std::max(status.rate->mean_ms, 1e-6));
-        char time[16] = "";
-        std::snprintf(time, sizeof time, "%.1f", status.rate->mean_ms);
-        cells[4] = time;
-    } else if (status.frame_ms > 0.0) {
+    } else if (const double time_ms = frameMilliseconds(lane); time_ms > 0.0) {
         cells[3] = formatRate(framesPerSecond(lane));
         char time[16] = "";
-        std::snprintf(time, sizeof time, "%.1f", status.frame_ms);
+        std::snprintf(time, sizeof time, "%.1f", time_ms);
         cells[4] = time;
     }
     if (status.measuring)
@@ -152,15 +147,18 @@ void drawRow(const Ui& ui,
 }
 
 void drawTable(const Ui& ui, const PanelInput& input, const WindowState& state, const Area& area) {
-    drawTitles(ui, area.position, area.size.x);
     const float top = area.position.y + ui.px(kTitleHeight) + ui.theme.hairline();
+    const float rows = ui.px(kRowHeight) * static_cast<float>(input.document.lanes.size());
+    const bool scrolls = top + rows > area.end().y;
+    const float width = area.size.x - (scrolls ? ImGui::GetStyle().ScrollbarSize : 0.0f);
+    drawTitles(ui, area.position, width);
     ImGui::SetCursorScreenPos({area.position.x, top});
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
     ImGui::BeginChild("rows", {area.size.x, area.end().y - top});
     Ui named = ui;
     for (const Lane& lane : input.document.lanes) {
         named.panel = "Lane " + std::to_string(lane.id);
-        drawRow(named, input, state, lane, area.size.x);
+        drawRow(named, input, state, lane, width);
     }
     ImGui::EndChild();
     ImGui::PopStyleVar();

@@ -80,8 +80,13 @@ std::string_view instancingName(Instancing instancing) {
     return {};
 }
 
+double frameMilliseconds(const Lane& lane) {
+    return lane.status.rate ? lane.status.rate->mean_ms : lane.status.frame_ms;
+}
+
 double framesPerSecond(const Lane& lane) {
-    return lane.status.frame_ms > 0.0 ? 1000.0 / lane.status.frame_ms : 0.0;
+    const double time_ms = frameMilliseconds(lane);
+    return time_ms > 0.0 ? 1000.0 / time_ms : 0.0;
 }
 
 } // namespace lodestone::ui

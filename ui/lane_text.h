@@ -12,6 +12,7 @@ std::string_view orderingName(Ordering ordering); // "triangle", "byte", "cost"
 std::string laneSummary(const Document& document, const Lane& lane);
 std::string_view instancingName(Instancing instancing); // "GLB · automatic" without container
 std::string sceneTitle(const Document& document);       // file name or sample name
-double framesPerSecond(const Lane& lane);               // 0: unknown
+double frameMilliseconds(const Lane& lane); // measured, else of the last draw; 0: unknown
+double framesPerSecond(const Lane& lane);   // by it
 
 } // namespace lodestone::ui

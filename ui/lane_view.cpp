@@ -132,8 +132,8 @@ FooterWords footerWords(const Document& document, const Lane& lane) {
     words.ratio = formatRatio(numbers.ratio);
     const bool estimated = isEstimated(document.export_options) || numbers.bytes_estimated;
     words.size = (estimated ? "~" : "") + formatBytes(numbers.predicted_bytes);
-    if (lane.status.frame_ms > 0.0) {
-        words.time = formatMilliseconds(lane.status.frame_ms);
+    if (const double time_ms = frameMilliseconds(lane); time_ms > 0.0) {
+        words.time = formatMilliseconds(time_ms);
         words.rate = formatRate(framesPerSecond(lane));
     }
     return words;

@@ -96,22 +96,20 @@ void drawRow(const Ui& ui,
     else if (ImGui::IsItemHovered())
         list.AddRectFilled(begin, end, color::kField);
     const float y = begin.y + (height - ImGui::GetTextLineHeight()) * 0.5f;
-    const std::string count = "\u00d7 " + formatCount(instances);
-    ImFont* const small = ui.theme.fonts.small;
-    const float name_width =
-        at.instances_right - textWidth(ui, count, small) - ui.px(6) - at.name_x;
-    const std::string name = item.name.empty() ? "mesh " + std::to_string(submesh + 1) : item.name;
-    drawText(ui, {at.name_x, y}, Align::Left, fitText(ui, name, name_width));
-    tooltip(ui, name);
-    drawText(
-        ui, {at.instances_right, y + ui.px(2)}, Align::Right, count, {small, color::kSecondary});
     const std::uint64_t before = triangleCount(item);
     const std::uint64_t now =
         shownTriangles(document, document.findLane(document.active_lane), submesh);
-    drawText(ui,
-             {at.triangles_right, y},
-             Align::Right,
-             now < 10'000 ? formatCount(now) : formatShortCount(now));
+    const std::string triangles = now < 10'000 ? formatCount(now) : formatShortCount(now);
+    const std::string count = "\u00d7 " + formatCount(instances);
+    ImFont* const small = ui.theme.fonts.small;
+    const float count_right =
+        std::min(at.instances_right, at.triangles_right - textWidth(ui, triangles) - ui.px(8));
+    const float name_width = count_right - textWidth(ui, count, small) - ui.px(6) - at.name_x;
+    const std::string name = item.name.empty() ? "mesh " + std::to_string(submesh + 1) : item.name;
+    drawText(ui, {at.name_x, y}, Align::Left, fitText(ui, name, name_width));
+    tooltip(ui, name);
+    drawText(ui, {count_right, y + ui.px(2)}, Align::Right, count, {small, color::kSecondary});
+    drawText(ui, {at.triangles_right, y}, Align::Right, triangles);
     const float bar_width = at.lock_x - ui.px(12) - at.bar_x;
     const double kept = before > 0 ? static_cast<double>(now) / static_cast<double>(before) : 0.0;
     progressLine(

@@ -166,7 +166,8 @@ void LanePictures::measureNext(Session& session) {
         }
         measuring_.frames += slice->frames;
         measuring_.total_ms += slice->mean_ms * static_cast<double>(slice->frames);
-        if (measuring_.frames >= kFrames || Clock::now() - measuring_.begun > kLongest) {
+        const bool late = measuring_.frames > 0 && Clock::now() - measuring_.begun > kLongest;
+        if (measuring_.frames >= kFrames || late) {
             const auto frames = static_cast<double>(measuring_.frames);
             session.setRate(lane.id, MeasuredRate{measuring_.total_ms / frames, measuring_.frames});
             measuring_ = {};

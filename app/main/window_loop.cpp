@@ -132,11 +132,17 @@ private:
         host_.setTitle(document.scene ? document.scene->name + " \u2013 Lodestone" : "Lodestone");
     }
 
-    // For tests: whether every view shows what it should.
+    // For tests: how many views show a picture, and whether all show what they should.
     void logPictures() {
         const bool final = pictures_.final() && session_.document().jobs.empty();
-        session_.uiLog().object(
-            "pictures", "pictures", final ? "\"final\":true" : "\"final\":false");
+        const auto shown =
+            std::ranges::count_if(pictures_.shown(), [](const ui::LanePicture& picture) {
+                return picture.texture != nullptr;
+            });
+        session_.uiLog().object("pictures",
+                                "pictures",
+                                "\"shown\":" + std::to_string(shown) +
+                                    (final ? ",\"final\":true" : ",\"final\":false"));
     }
 
     GlContext& context_;
