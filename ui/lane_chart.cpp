@@ -53,7 +53,7 @@ double originalBytes(const Document& document) {
     return 0.0;
 }
 
-// Spans all curves, with a margin. False if there is none yet.
+// Spans all curves, with a margin. False if there is none yet, or nothing that a logarithm shows.
 bool fitAxes(const PanelInput& input, const WindowState& state, Axes& axes) {
     double smallest = std::numeric_limits<double>::max();
     double largest = 0.0;
@@ -67,7 +67,7 @@ bool fitAxes(const PanelInput& input, const WindowState& state, Axes& axes) {
         if (axes.kind == ChartKind::Error && lane.status.distance)
             largest = std::max(largest, lane.status.distance->hausdorff);
     }
-    if (largest <= 0.0)
+    if (largest <= kSmallest)
         return false;
     if (axes.kind == ChartKind::Size)
         largest = std::max(largest, originalBytes(input.document));
@@ -201,8 +201,18 @@ void drawLaneChart(const Ui& ui,
              Align::Left,
              size ? "projected size, log" : "estimated error, log",
              {ui.theme.fonts.small, color::kSecondary});
-    if (!fitAxes(input, state, axes))
+    if (!fitAxes(input, state, axes)) {
+        const bool known = std::ranges::any_of(input.document.lanes, [&](const Lane& lane) {
+            return !state.curves.of(lane.id).empty();
+        });
+        if (known)
+            drawText(ui,
+                     axes.plot.position + ImVec2(0, axes.plot.size.y * 0.5f - ui.px(8)),
+                     Align::Left,
+                     "none: every level keeps the surface",
+                     {nullptr, color::kSecondary});
         return;
+    }
     drawGrid(ui, axes);
     drawOriginal(ui, axes, input.document);
     for (const Lane& lane : input.document.lanes)

@@ -106,11 +106,13 @@ void drawLaneHeader(
             ui.px(1.3f),
             ink,
             12);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(10), ui.px(8)}); // not the grid's
     if (ImGui::BeginPopup("lane menu")) {
         laneMenu(ui, input, state, lane);
         closeOnEscape();
         ImGui::EndPopup();
     }
+    ImGui::PopStyleVar();
 }
 
 namespace {
