@@ -158,7 +158,8 @@ combo(const Ui& ui, std::string_view label, std::span<const std::string> items, 
     ImGui::SetNextItemWidth(width);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(8), ui.px(5)});
     const ImVec2 min = ImGui::GetCursorScreenPos();
-    const bool open = ImGui::BeginCombo(id.c_str(), preview.c_str(), ImGuiComboFlags_NoArrowButton);
+    const bool open = ImGui::BeginCombo(
+        id.c_str(), preview.c_str(), ImGuiComboFlags_NoArrowButton | ImGuiComboFlags_HeightLarge);
     const float height = ImGui::GetFrameHeight();
     ImGui::PopStyleVar();
     if (!open)

@@ -60,6 +60,8 @@ bool fitAxes(const PanelInput& input, const WindowState& state, Axes& axes) {
     for (const Lane& lane : input.document.lanes) {
         for (const SizePoint& point : state.curves.of(lane.id)) {
             const double value = axes.valueOf(point);
+            if (!std::isfinite(value)) // nobody knows: it stands at the upper edge
+                continue;
             largest = std::max(largest, value);
             if (value > kSmallest)
                 smallest = std::min(smallest, value);
