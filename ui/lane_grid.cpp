@@ -92,7 +92,8 @@ void drawPicture(
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(area.position, area.end(), color::kView);
     const LanePicture* const picture = input.pictureOf(lane.id);
-    if (picture && picture->texture)
+    const bool drawn = picture && picture->texture;
+    if (drawn)
         list.AddImage(picture->texture, area.position, area.end(), {0, 1}, {1, 0});
     ImGui::SetCursorScreenPos(area.position);
     ImGui::InvisibleButton("picture",
@@ -105,7 +106,7 @@ void drawPicture(
         ui.push(SetActiveLane{lane.id});
     pictureGestures(ui, input, state, lane.id, area);
     drawLegend(ui, input.document, lane, area);
-    drawLaneState(ui, state, lane, picture && picture->draft, area);
+    drawLaneState(ui, state, lane, drawn && picture->draft, area);
     requestPicture(input, state, lane.id, area);
 }
 

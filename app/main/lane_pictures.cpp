@@ -13,6 +13,7 @@ constexpr double kPictureBudgetMs = 25.0;
 constexpr double kPicturesDoneMs = 45.0; // after the frame began; what is left is for its output
 constexpr double kSoftwareMsPerTriangle = 0.0004; // llvmpipe on two busy cores
 constexpr std::chrono::milliseconds kRest{150};   // no input for so long: refine
+constexpr std::chrono::milliseconds kSoon{30};    // the same after a view's first draft
 
 } // namespace
 
@@ -35,7 +36,10 @@ std::vector<ViewSet::Wanted> LanePictures::wantedPictures(const Document& docume
         const LaneStatus& status = lane->status;
         // Pictures that are compared have one size: cells of a grid differ by a pixel.
         const ui::ViewRequest& sized = differences ? views.front() : view;
-        const bool drafted = !differences && now < rests_at_[lane->id];
+        Clock::time_point& rests_at = rests_at_[lane->id];
+        if (isBlank(lane->id)) // a draft now is worth more than the whole picture later
+            rests_at = std::max(rests_at, now + kSoon);
+        const bool drafted = !differences && now < rests_at;
         const std::shared_ptr<const Lod> draft =
             drafted ? drafts_.draftOf(document, *lane) : nullptr;
         DrawnLod shown = drawnLod(status);
@@ -56,6 +60,11 @@ std::vector<ViewSet::Wanted> LanePictures::wantedPictures(const Document& docume
         }
     }
     return wanted;
+}
+
+bool LanePictures::isBlank(LaneId lane) const {
+    const auto shown = std::ranges::find(shown_, lane, &ui::LanePicture::lane);
+    return shown == shown_.end() || shown->texture == nullptr;
 }
 
 std::shared_ptr<const Lod> LanePictures::fullOriginal(const Document& document) {

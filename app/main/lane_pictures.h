@@ -54,6 +54,7 @@ public:
 private:
     std::vector<ViewSet::Wanted> wantedPictures(const Document& document,
                                                 std::span<const ui::ViewRequest> views);
+    bool isBlank(LaneId lane) const; // its view has no picture yet
     std::shared_ptr<const Lod> fullOriginal(const Document& document);
     // The lane itself or, if it shows another scene, one in view that shows the original's.
     LaneId laneToPickFrom(const Document& document, LaneId lane) const;
