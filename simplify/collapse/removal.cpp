@@ -2,12 +2,11 @@
 
 #include "simplify/collapse/radix_sort.h"
 #include "simplify/collapse/removal_grid.h"
+#include "simplify/collapse/removal_order.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace lodestone {
 
@@ -75,13 +74,6 @@ std::uint32_t spread(std::uint32_t v) { // 10 bits to every third bit
     return (v | v << 2) & 0x9249249;
 }
 
-struct Member {
-    std::uint32_t instance = 0;
-    glm::dvec3 at{0.0}; // pivot in the world
-    double room = 0.0;  // growth up to which its box surely stays inside the model's
-    double area = 0.0;
-};
-
 // How far a transformed box reaches from the pivot before it leaves the model's bounds, x its size.
 double roomOf(const glm::dmat3& m,
               const Bounds& about_pivot,
@@ -145,14 +137,6 @@ Crowd crowdOf(const Scene& scene,
     return crowd;
 }
 
-// The lowest bits in reverse order.
-std::size_t reversedBits(std::uint32_t value, int bits) {
-    value = (value >> 1 & 0x55555555u) | (value & 0x55555555u) << 1;
-    value = (value >> 2 & 0x33333333u) | (value & 0x33333333u) << 2;
-    value = (value >> 4 & 0x0F0F0F0Fu) | (value & 0x0F0F0F0Fu) << 4;
-    return bits == 0 ? 0 : std::size_t{__builtin_bswap32(value)} >> (32 - bits);
-}
-
 // Mean size of the instances: their submesh's radius about the pivot, world units.
 double meanRadius(const SubmeshFacts& facts, const std::vector<Member>& members) {
     double area = 0.0;
@@ -160,41 +144,6 @@ double meanRadius(const SubmeshFacts& facts, const std::vector<Member>& members)
         area += member.area;
     const double scale2 = area / (facts.area * static_cast<double>(members.size()));
     return 0.5 * facts.bounds.diagonal() * std::sqrt(scale2);
-}
-
-// Indices into members, the first to go first. Rounds halve the survivors: neighbours along the
-// Morton curve are a stratum of two, of which one goes; the strata of a round go in bit-reversed
-// order, so that every moment of the slider is evenly thinned.
-std::vector<std::uint32_t> removalOrder(const std::vector<Member>& members) {
-    std::vector<std::uint32_t> alive(members.size());
-    std::iota(alive.begin(), alive.end(), 0u);
-    std::vector<std::uint32_t> order;
-    double growth = 1.0;
-    for (int round = 0; alive.size() > 1; ++round) {
-        growth = std::min(kMaxGrowth, growth * std::sqrt(2.0));
-        const std::size_t pairs = alive.size() / 2;
-        const int bits = static_cast<int>(std::bit_width(pairs - 1));
-        std::vector<std::uint32_t> survivors(alive.begin() + static_cast<std::ptrdiff_t>(2 * pairs),
-                                             alive.end());
-        std::vector<std::uint32_t> stay(pairs);
-        for (std::uint32_t slot = 0; slot < 1u << bits; ++slot) {
-            const std::size_t pair = reversedBits(slot, bits);
-            if (pair >= pairs)
-                continue;
-            const std::uint32_t a = alive[2 * pair];
-            const std::uint32_t b = alive[2 * pair + 1];
-            const bool a_fits = members[a].room >= growth;
-            const bool b_fits = members[b].room >= growth;
-            const bool keep_a =
-                a_fits != b_fits ? a_fits : ((pair + static_cast<std::size_t>(round)) & 1) == 0;
-            stay[pair] = keep_a ? a : b;
-            order.push_back(keep_a ? b : a);
-        }
-        survivors.insert(survivors.begin(), stay.begin(), stay.end());
-        alive = std::move(survivors);
-    }
-    order.insert(order.end(), alive.begin(), alive.end());
-    return order;
 }
 
 } // namespace
@@ -226,6 +175,57 @@ double meanOfFirstHalf(std::span<const double> distances) {
     return sum / static_cast<double>(distances.size() - begin);
 }
 
+// [instances] Growth that no survivor may exceed while the first i of order are left. Unlike sizes:
+// the largest must not swell by more than the place of what is gone, to make up for dwarfs.
+std::vector<double> growthLimits(std::span<const double> areas,
+                                 std::span<const double> distances,
+                                 double mean_area,
+                                 double mean_radius) {
+    std::vector<double> limits(areas.size(), kMaxGrowth);
+    const auto [least, most] = std::ranges::minmax(areas);
+    if (!differInSize(least, most))
+        return limits;
+    double largest = 0.0;
+    for (std::size_t i = 1; i < areas.size(); ++i) {
+        largest = std::max(largest, areas[i - 1]);
+        const double radius = mean_radius * std::sqrt(largest / mean_area);
+        limits[i] = std::min(kMaxGrowth, 1.0 + distances[i] / radius);
+    }
+    return limits;
+}
+
+std::vector<double> runningMaxima(std::vector<double> values) {
+    for (std::size_t i = 1; i < values.size(); ++i)
+        values[i] = std::max(values[i], values[i - 1]);
+    return values;
+}
+
+// Pools adjacent violators: each value becomes the mean of its run, runs rise.
+std::vector<double> risingMeans(std::span<const double> values) {
+    struct Run {
+        double sum = 0.0;
+        std::size_t count = 0;
+
+        double mean() const { return sum / static_cast<double>(count); }
+    };
+
+    std::vector<Run> runs;
+    for (const double value : values) {
+        Run run{value, 1};
+        while (!runs.empty() && runs.back().mean() >= run.mean()) {
+            run.sum += runs.back().sum;
+            run.count += runs.back().count;
+            runs.pop_back();
+        }
+        runs.push_back(run);
+    }
+    std::vector<double> means;
+    means.reserve(values.size());
+    for (const Run& run : runs)
+        means.insert(means.end(), run.count, run.mean());
+    return means;
+}
+
 // Costs, errors and growth from the first removal to the last. A cover makes all removals cheaper
 // alike: the first costs what the cover hides, the last ones of a kind stay dear. Of a few of a
 // kind each counts, whatever hides it.
@@ -240,20 +240,24 @@ void weighRemovals(RemovalSequence& removal,
         apart > cover.cost_distance ? std::max(cover.cost_distance / apart, one_of) : 1.0;
     const double bounded = std::min(kMaxGrowth, 1.0 + cover.distance / radius);
     const double all = removal.area_left.back();
-    double cost = 0.0;
+    const std::vector<double> limits =
+        growthLimits(areas, distances, all / static_cast<double>(areas.size()), radius);
+    const bool unlike = differInSize(std::ranges::min(areas), std::ranges::max(areas));
+    std::vector<double> costs;
     double to_sisters = 0.0;
     double growth = 1.0;
     for (std::size_t i = areas.size(); i-- > 1;) {
         to_sisters = std::max(to_sisters, distances[i]);
-        const double distance = hidden * to_sisters;
-        cost = std::max(cost, areas[i] * distance * distance);
-        const double limit = to_sisters <= cover.distance ? kMaxGrowth : bounded;
+        const double distance = hidden * (unlike ? distances[i] : to_sisters);
+        costs.push_back(areas[i] * distance * distance);
+        const double limit =
+            std::min(limits[i], to_sisters <= cover.distance ? kMaxGrowth : bounded);
         const double left = removal.area_left[i];
         growth = std::max(growth, left > 0.0 ? std::min(limit, std::sqrt(all / left)) : 1.0);
-        removal.cost.push_back(cost);
         removal.error.push_back(static_cast<float>(std::min(to_sisters, cover.distance)));
         removal.growth.push_back(static_cast<float>(growth));
     }
+    removal.cost = unlike ? risingMeans(costs) : runningMaxima(costs);
 }
 
 } // namespace
@@ -267,7 +271,7 @@ RemovalSequence planRemoval(const Scene& scene,
         return {};
     const SubmeshFacts facts = factsOf(submesh);
     const auto [members, spots] = crowdOf(scene, range, facts, scene_bounds);
-    std::vector<std::uint32_t> order = removalOrder(members);
+    std::vector<std::uint32_t> order = removalOrder(members, spots);
     std::ranges::reverse(order); // the longest-lived first
     RemovalSequence removal;
     removal.pivot = facts.pivot;

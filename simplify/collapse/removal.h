@@ -9,7 +9,8 @@ struct RemovalSequence {
     // All instances of the submesh, the longest-lived first: n kept instances are the first n.
     std::shared_ptr<const std::vector<std::uint32_t>> order; // indices into Scene::instances
     // cost[i]: of removing the (i + 1)-th instance to go, world length^4: its area times the
-    // squared distance to the nearest of its sisters that outlives it, as a running maximum. With a
+    // squared distance to the nearest of its sisters that outlives it, as a running maximum; where
+    // sizes are unlike as rising means, lest a dwarf far off price the giants. With a
     // cover that is nearer than the sisters, that distance x (cover / sisters' mean at the start),
     // no less than / sqrt(instances).
     std::vector<double> cost; // [instances - 1]
@@ -28,7 +29,8 @@ constexpr double kMaxGrowth = 5.0;
 
 // Growth of the survivors' size when `kept` of all instances are left: sqrt(area of all / kept).
 // Where a cover is nearer than the sisters it is bounded by 1 + cover / radius: a window must not
-// outgrow its wall to make up for others.
+// outgrow its wall to make up for others. Of unlike sizes the largest that is left grows by no more
+// than the distance to the nearest of what is left.
 double growthAt(const RemovalSequence& removal, std::uint32_t kept);
 
 // Whether the paper's rule thins out a submesh: it has a twentieth of all instances, or 1,000.
