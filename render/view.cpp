@@ -361,8 +361,7 @@ Result<DrawReport> ViewState::draw(const View::Input& input, double budget_ms) {
 }
 
 Result<MeasureReport> ViewState::measure(const View::Input& input, const MeasureOptions& options) {
-    invalidate();
-    const Result<DrawReport> first = draw(input, View::kNoBudget);
+    const Result<DrawReport> first = draw(input, View::kNoBudget); // unless that is the picture
     if (!first)
         return tl::unexpected(first.error());
     const Clock::time_point begun = Clock::now();

@@ -282,38 +282,10 @@ Result<std::vector<ViewSet::Picture>> ViewSet::draw(std::span<const Wanted> want
     return pictures;
 }
 
-Result<MeasureReport> ViewSet::measureInSlices(Item& item, const MeasureOptions& options) const {
-    const auto begin = std::chrono::steady_clock::now();
-    const double budget_ms = options.budget_s * 1000.0;
-    const View::Input input = inputOf(item);
-    MeasureReport report;
-    double total_ms = 0.0;
-    double spent_ms = 0.0;
-    do {
-        if (!item.measured_frame)
-            item.view.invalidate();
-        const Result<DrawReport> drawn = item.view.draw(input, budget_ms - spent_ms);
-        if (!drawn)
-            return tl::unexpected(drawn.error());
-        item.measured_frame = !drawn->complete;
-        if (drawn->complete && drawn->drew) {
-            ++report.frames;
-            total_ms += drawn->cost_ms;
-        }
-        spent_ms = millisecondsSince(begin);
-    } while (spent_ms < budget_ms && static_cast<std::int64_t>(report.frames) < options.frames);
-    if (report.frames > 0)
-        report.mean_ms = total_ms / static_cast<double>(report.frames);
-    report.fps = report.mean_ms > 0.0 ? 1000.0 / report.mean_ms : 0.0;
-    return report;
-}
-
 Result<MeasureReport> ViewSet::measure(std::uint32_t key, const MeasureOptions& options) {
     const auto found = items_.find(key);
     if (found == items_.end() || !found->second.complete)
         return fail(ErrorKind::Usage, "this lane has no picture yet; wait for it");
-    if (renderer_.info().is_software)
-        return measureInSlices(found->second, options);
     return found->second.view.measure(inputOf(found->second), options);
 }
 

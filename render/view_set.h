@@ -69,9 +69,8 @@ public:
     const CallWork& lastWork() const { return last_work_; }
 
     // Draws a lane again and again as it was last drawn (see View::measure). Blocks as long as the
-    // options say; budget_s > 0. Where the CPU draws, a frame goes on in the next call where the
-    // budget ends (then fewer are counted, perhaps none), without a warm-up.
-    // Errors: Usage if it has no complete picture; those of View.
+    // options say, at least for a whole frame: in slices, frames take half as long again where the
+    // CPU draws. Errors: Usage if it has no complete picture; those of View.
     Result<MeasureReport> measure(std::uint32_t key, const MeasureOptions& options);
     // Of a lane's last complete picture. Errors: as measure().
     Result<Pixels> readPixels(std::uint32_t key) const;
@@ -103,10 +102,9 @@ private:
         OrbitCamera camera;
         ViewOptions options;
         ViewSize size;
-        std::uint64_t drawn_at = 0;  // turn of the last draw
-        bool drawn = false;          // it has a picture, perhaps of another state
-        bool complete = false;       // the picture shows what the members above say
-        bool measured_frame = false; // one of measure() is under way
+        std::uint64_t drawn_at = 0; // turn of the last draw
+        bool drawn = false;         // it has a picture, perhaps of another state
+        bool complete = false;      // the picture shows what the members above say
     };
 
     Result<Item*> itemOf(std::uint32_t key);
@@ -129,7 +127,6 @@ private:
                           const OrbitCamera& camera,
                           const ViewOptions& options,
                           double budget_ms);
-    Result<MeasureReport> measureInSlices(Item& item, const MeasureOptions& options) const;
     static double costOf(const Item& item, const Wanted& wanted); // 0: unknown
 
     Renderer renderer_;

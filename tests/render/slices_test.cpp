@@ -110,33 +110,6 @@ TEST_F(SlicesTest, APictureUnderWayIsFinishedWhileTheCameraMovesOn) {
     EXPECT_EQ(views.readPixels(1)->rgba, at_once.readPixels(1)->rgba);
 }
 
-TEST_F(SlicesTest, AMeasuredFrameGoesOnInTheNextCallAndLeavesThePicture) {
-    ViewSet views(*renderer_);
-    const std::vector<ViewSet::Wanted> wanted{
-        {1, scene_, std::make_shared<const Lod>(fullLod(*scene_)), nullptr, kSize, {}}};
-    auto drawn = views.draw(wanted, camera_, {}, 1e9);
-    while (drawn && drawn->front().stale)
-        drawn = views.draw(wanted, camera_, {}, 1e9);
-    ASSERT_TRUE(drawn) << drawn.error().message;
-    const auto before = views.readPixels(1);
-    MeasureOptions options;
-    options.budget_s = 0.001;
-    int calls = 0;
-    MeasureReport report;
-    while (report.frames == 0) {
-        const auto measured = views.measure(1, options);
-        ASSERT_TRUE(measured) << measured.error().message;
-        report = *measured;
-        ASSERT_LT(++calls, 2000);
-    }
-    EXPECT_GT(calls, 3);
-    EXPECT_GT(report.mean_ms, 1.0) << "not the whole frame";
-    EXPECT_EQ(before->rgba, views.readPixels(1)->rgba);
-    drawn = views.draw(wanted, camera_, {}, 1e9);
-    ASSERT_TRUE(drawn);
-    EXPECT_FALSE(drawn->front().stale);
-}
-
 TEST(SlicePaceTest, SlicesShrinkAtOnceAndGrowByAndBy) {
     SlicePace pace;
     const std::uint64_t first = pace.trianglesWithin(SlicePace::kSliceMs);
