@@ -34,6 +34,7 @@ struct CollapseOptions {
     // Components with more faces are picked in near-greedy passes down to the second number.
     std::uint32_t near_greedy_above = 24'000;
     std::uint32_t exact_below = 6'000;
+    bool grow_crowds = false; // what is left of many small open parts, as leaves, keeps their area
     std::shared_ptr<const CollapseMethod> method; // null: each component's edges, greedily
 };
 

@@ -80,7 +80,7 @@ struct ReadOut {
     }
 
     AliveWedges findAlive(std::size_t primitive);
-    void fillPositions(const AliveWedges& alive, const Geometry& from, Geometry& to) const;
+    void fillPositions(std::size_t primitive, const AliveWedges& alive, Geometry& to) const;
     void fillCarried(const AliveWedges& alive, const Attribute& from, Attribute& to) const;
     void fillBlended(const AliveWedges& alive,
                      const WedgeAttributes::Slot& slot,
@@ -115,14 +115,17 @@ AliveWedges ReadOut::findAlive(std::size_t primitive) {
     return alive;
 }
 
-void ReadOut::fillPositions(const AliveWedges& alive, const Geometry& from, Geometry& to) const {
+void ReadOut::fillPositions(std::size_t primitive, const AliveWedges& alive, Geometry& to) const {
+    const Geometry& from = *submesh.primitives[primitive].geometry;
     to.positions.resize(alive.wedges.size());
     forBlocks(alive.wedges.size(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t version = alive.versions[i];
-            to.positions[i] = scaled(
-                version == kNone ? from.positions[sequence.complex.wedge_source[alive.wedges[i]]]
-                                 : sequence.version_position[version]);
+            const std::uint32_t wedge = alive.wedges[i];
+            const glm::vec3& at = version == kNone
+                                      ? from.positions[sequence.complex.wedge_source[wedge]]
+                                      : sequence.version_position[version];
+            to.positions[i] = scaled(sequence.crowds.grown(primitive, wedge, step, at));
         }
     });
 }
@@ -221,7 +224,7 @@ void ReadOut::fillIndices(std::size_t primitive, Geometry& to) const {
 void ReadOut::fillVertices(std::size_t primitive, const AliveWedges& alive, Geometry& to) const {
     const Geometry& from = *submesh.primitives[primitive].geometry;
     const WedgeAttributes::PrimitiveLayout& layout = sequence.attributes.primitives[primitive];
-    fillPositions(alive, from, to);
+    fillPositions(primitive, alive, to);
     for (std::size_t a = 0; a < from.attributes.size(); ++a) {
         to.attributes.push_back(emptyLike(from.attributes[a], alive.wedges.size()));
         fillAttribute(alive, layout.slots[a], from.attributes[a], to.attributes.back());

@@ -333,6 +333,8 @@ Result<std::vector<CollapseSequence>> buildSequences(std::span<const SequenceReq
                                 build.length_scales);
         sequences[b].step_count =
             floorStep(sequences[b], *requests[b].submesh, requests[b].instance_count, floors);
+        if (options.grow_crowds)
+            sequences[b].crowds = growCrowds(sequences[b], *requests[b].submesh);
     });
     job.report(1.0);
     return sequences;

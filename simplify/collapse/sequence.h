@@ -4,6 +4,7 @@
 #include "scene/job_context.h"
 #include "scene/result.h"
 #include "simplify/collapse/component_mesh.h"
+#include "simplify/collapse/crowd_growth.h"
 
 namespace lodestone {
 
@@ -36,6 +37,7 @@ struct CollapseSequence {
     std::vector<std::uint32_t> version_carrier; // [versions] or empty
     std::vector<float> version_values;          // [versions * attributes.size]
     WedgeAttributes attributes;                 // layout; values are dropped after building
+    CrowdGrowth crowds;                         // read-outs alone grow what is left of them
 
     std::uint32_t recordedSteps() const { return static_cast<std::uint32_t>(cost.size()); }
 

@@ -97,6 +97,7 @@ Result<LodSourcePtr> prepareWild(const ScenePtr& scene,
     VirtualEdgeOptions virtual_edges;
     virtual_edges.epsilon = value("epsilon") / 100.0;
     virtual_edges.rule = static_cast<VirtualEdgeRule>(value("virtual-edges"));
+    options.collapse.grow_crowds = value("crowds") > 0.5;
     options.collapse.boundary_weight = 0.0; // the area term stands in for it
     options.collapse.attributes = {0.0, 0.0, 0.0};
     options.collapse.method = std::make_shared<const WildMethod>(input.scene, wild, virtual_edges);
@@ -144,8 +145,13 @@ std::vector<ParameterInfo> wildParameters() {
     floors.kind = ParameterInfo::Kind::Toggle;
     floors.label = "Floors";
     floors.tooltip = "Keep at least four triangles and most of the extent of every submesh.";
+    ParameterInfo crowds = number("crowds", 1.0, 1.0);
+    crowds.kind = ParameterInfo::Kind::Toggle;
+    crowds.label = "Crowds keep their area";
+    crowds.tooltip = "Where many small open parts, such as leaves, become few, those few grow so "
+                     "that together they cover as much as before.";
     std::vector<ParameterInfo> parameters{
-        epsilon, rule, area, checks, scope, floors, removalParameter()};
+        epsilon, rule, area, checks, crowds, scope, floors, removalParameter()};
     addBakeParameters(parameters);
     return parameters;
 }
