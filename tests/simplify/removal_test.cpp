@@ -174,6 +174,25 @@ TEST(Removal, OfPairsTheOneThatWouldLeaveTheModelGoesFirst) {
         EXPECT_EQ((*by_centroid.order)[k] % 2, 1u) << "the inner one of a pair survives";
 }
 
+TEST(Removal, DwarfsGoBeforeTheGiantsAmongThemWhichHardlyGrow) {
+    std::mt19937 random(9);
+    std::uniform_real_distribution<double> place(0.0, kSide);
+    std::vector<glm::dmat4> transforms;
+    for (int i = 0; i < 400; ++i) {
+        const double x = place(random);
+        const double size = i % 40 == 0 ? 1.0 : 0.02;
+        transforms.push_back(glm::translate(glm::dmat4(1.0), {x, place(random), 0.0}) *
+                             glm::scale(glm::dmat4(1.0), glm::dvec3(size)));
+    }
+    const RemovalSequence removal =
+        planned(meshes::sceneOf({submeshOf({meshes::grid(2)})}, {transforms}));
+    for (std::size_t k = 0; k < 10; ++k)
+        EXPECT_EQ((*removal.order)[k] % 40, 0U) << k << ": a giant survives";
+    EXPECT_TRUE(std::ranges::is_sorted(removal.cost));
+    EXPECT_LE(growthAt(removal, 10), 1.01) << "ten giants have all of the area but a hundredth";
+    EXPECT_GT(removal.cost[390], 100.0 * removal.cost[300]) << "giants are dear";
+}
+
 TEST(Removal, IsTheSameEveryTime) {
     const ScenePtr scene = scattered(500);
     EXPECT_EQ(*planned(scene).order, *planned(scene).order);
