@@ -1,7 +1,6 @@
 #include "simplify/collapse/schedule.h"
 
 #include <algorithm>
-#include <optional>
 #include <queue>
 #include <tbb/parallel_for.h>
 
@@ -24,6 +23,7 @@ struct Block {
 struct Rates {
     double per_vertex = 0.0;
     double per_triangle = 0.0;
+    double per_instance = 0.0;
 };
 
 class StepReader {
@@ -33,60 +33,40 @@ public:
                const ScheduleOptions& options,
                const ByteModel* bytes)
         : sequence_(set.sequences[submesh]), removal_(set.removals[submesh]),
-          instances_(set.ranges[submesh].size()), stretch_(set.max_stretch[submesh]),
-          ordering_(options.ordering) {
+          instances_(set.ranges[submesh].size()), ordering_(options.ordering) {
         if (submesh < options.importance.size())
             importance_ = options.importance[submesh];
         if (ordering_ != Ordering::Byte)
             return;
         const auto s = static_cast<std::uint32_t>(submesh);
         for (std::uint32_t p = 0; p < sequence_.counts.size(); ++p)
-            rates_.push_back({bytes->bytesPerVertex(s, p), bytes->bytesPerTriangle(s, p)});
+            rates_.push_back({bytes->bytesPerVertex(s, p), bytes->bytesPerTriangle(s, p), 0.0});
         bytes_per_instance_ = bytes->bytesPerInstance(s);
     }
 
-    std::uint32_t instances() const { return instances_; }
-
     std::uint32_t collapses() const { return instances_ > 0 ? sequence_.step_count : 0; }
 
-    std::uint32_t removals() const { return static_cast<std::uint32_t>(removal_.cost.size()); }
-
-    // Step numbers start at 0 here: collapse i leads from step i to step i + 1. With all instances.
-    Block collapse(std::uint32_t i) const {
-        return {importance_ * sequence_.cost[i], collapseGain(i), 1};
+    std::uint32_t stepCount() const {
+        return collapses() + static_cast<std::uint32_t>(removal_.cost.size());
     }
 
-    // By how much more a collapse costs for what it gains once instances are gone: the errors of
-    // the survivors grow as they do.
-    double dearness(std::uint32_t removed) const {
-        if (removed == 0)
-            return 1.0;
-        const double growth = removal_.growth[removed - 1];
-        const double cost = growth * growth * growth * growth;
-        return ordering_ == Ordering::Triangle ? cost : cost * (instances_ - removed) / instances_;
+    // Step numbers start at 0 here: step i leads from state i to state i + 1.
+    Block read(std::uint32_t i) const {
+        const bool collapse = i < collapses();
+        const double cost =
+            importance_ * (collapse ? sequence_.cost[i] : removal_.cost[i - collapses()]);
+        return {cost, collapse ? collapseGain(i) : removalGain(), 1};
     }
 
-    // Of the removal after that many others, at a step of the collapses.
-    Block removal(SubmeshState state) const {
-        const std::uint32_t removed = instances_ - state.kept_instances;
-        double gain = 1.0;
-        if (ordering_ == Ordering::Triangle)
-            gain = sequence_.facesAt(state.step);
-        else if (ordering_ == Ordering::Byte)
-            gain = bytes_per_instance_;
-        return {importance_ * removal_.cost[removed], gain, 1};
+    // Instanced triangles after i steps.
+    std::uint64_t trianglesAfter(std::uint32_t i) const {
+        const std::uint32_t step = std::min(i, collapses());
+        return std::uint64_t{sequence_.facesAt(step)} * (instances_ - (i - step));
     }
 
-    std::uint64_t trianglesAt(SubmeshState state) const {
-        return std::uint64_t{sequence_.facesAt(state.step)} * state.kept_instances;
-    }
-
-    double collapseError(std::uint32_t i) const {
-        return static_cast<double>(sequence_.error[i]) * stretch_;
-    }
-
-    double removalError(std::uint32_t removed) const {
-        return static_cast<double>(removal_.error[removed]);
+    double errorOf(std::uint32_t i, double stretch) const {
+        return i < collapses() ? static_cast<double>(sequence_.error[i]) * stretch
+                               : static_cast<double>(removal_.error[i - collapses()]);
     }
 
 private:
@@ -105,23 +85,29 @@ private:
         return saved;
     }
 
+    double removalGain() const {
+        if (ordering_ == Ordering::Cost)
+            return 1.0;
+        return ordering_ == Ordering::Triangle ? sequence_.facesAt(collapses())
+                                               : bytes_per_instance_;
+    }
+
     const CollapseSequence& sequence_;
     const RemovalSequence& removal_;
     std::uint32_t instances_;
-    double stretch_;
     Ordering ordering_;
     double importance_ = 1.0;
-    std::vector<Rates> rates_; // [primitives]
+    std::vector<Rates> rates_;
     double bytes_per_instance_ = 0.0;
 };
 
 // Pools adjacent violators: blocks of rising cost per gain. A cheap run behind one dear step, or a
 // step that gains nothing (a vertex without faces), joins its neighbours.
 // By cost alone nothing is averaged: a step waits for the dearest one before it (one global queue).
-std::vector<Block> poolCollapses(const StepReader& reader, Ordering ordering) {
+std::vector<Block> poolSteps(const StepReader& reader, Ordering ordering) {
     std::vector<Block> blocks;
-    for (std::uint32_t i = 0; i < reader.collapses(); ++i) {
-        Block block = reader.collapse(i);
+    for (std::uint32_t i = 0; i < reader.stepCount(); ++i) {
+        Block block = reader.read(i);
         if (ordering == Ordering::Cost) {
             if (!blocks.empty())
                 block.cost = std::max(block.cost, blocks.back().cost);
@@ -139,70 +125,6 @@ std::vector<Block> poolCollapses(const StepReader& reader, Ordering ordering) {
     return blocks;
 }
 
-// The steps of one submesh in their order: whichever is cheaper of its next collapses and its next
-// removal. Either makes the other dearer: fewer triangles go with an instance, errors grow with the
-// survivors.
-class Steps {
-public:
-    Steps(const StepReader& reader, Ordering ordering)
-        : reader_(reader), ordering_(ordering),
-          blocks_(poolCollapses(reader, ordering)), state_{0, reader.instances()} {
-        chooseNext();
-    }
-
-    bool done() const { return !collapse_next_ && !removal_next_; }
-
-    double key() const { return key_; }
-
-    bool nextIsCollapse() const { return collapse_next_; }
-
-    // Of the collapses that come together.
-    std::uint32_t nextCount() const { return collapse_next_ ? blocks_[next_].steps : 1; }
-
-    SubmeshState state() const { return state_; }
-
-    // Takes one of nextCount() steps; after the last chooses anew.
-    void take() {
-        if (!collapse_next_) {
-            --state_.kept_instances;
-            chooseNext();
-            return;
-        }
-        ++state_.step;
-        if (++taken_ < blocks_[next_].steps)
-            return;
-        taken_ = 0;
-        ++next_;
-        chooseNext();
-    }
-
-private:
-    void chooseNext() {
-        const std::uint32_t removed = reader_.instances() - state_.kept_instances;
-        collapse_next_ = next_ < blocks_.size();
-        removal_next_ = removed < reader_.removals();
-        // By cost as the paper has it: instances go when nothing is left to collapse.
-        if (collapse_next_ && removal_next_ && ordering_ == Ordering::Cost)
-            removal_next_ = false;
-        const double collapse =
-            collapse_next_ ? blocks_[next_].key() * reader_.dearness(removed) : 0.0;
-        const double removal = removal_next_ ? reader_.removal(state_).key() : 0.0;
-        if (collapse_next_ && removal_next_)
-            (removal < collapse ? collapse_next_ : removal_next_) = false;
-        key_ = std::max(key_, collapse_next_ ? collapse : removal);
-    }
-
-    const StepReader& reader_;
-    Ordering ordering_;
-    std::vector<Block> blocks_;
-    std::size_t next_ = 0;
-    std::uint32_t taken_ = 0; // of blocks_[next_]
-    SubmeshState state_;
-    bool collapse_next_ = false;
-    bool removal_next_ = false;
-    double key_ = 0.0;
-};
-
 struct Head {
     double key = 0.0;
     std::uint32_t submesh = 0;
@@ -217,58 +139,54 @@ struct Head {
 Schedule::Schedule(const SequenceSet& set, const ScheduleOptions& options, const ByteModel* bytes)
     : set_(&set), positions_(set.sequences.size()) {
     std::vector<StepReader> readers;
+    std::vector<std::vector<Block>> blocks(set.sequences.size());
     for (std::size_t s = 0; s < set.sequences.size(); ++s)
         readers.emplace_back(set, s, options, bytes);
-    std::vector<std::optional<Steps>> steps(readers.size());
     tbb::parallel_for(std::size_t{0}, readers.size(), [&](std::size_t s) {
         if (s >= options.locked.size() || !options.locked[s])
-            steps[s].emplace(readers[s], options.ordering);
+            blocks[s] = poolSteps(readers[s], options.ordering);
     });
     std::priority_queue<Head, std::vector<Head>, std::greater<>> heads;
     std::uint64_t triangles = 0;
     std::size_t total = 1;
     for (std::uint32_t s = 0; s < readers.size(); ++s) {
-        triangles += readers[s].trianglesAt({0, readers[s].instances()});
-        if (!steps[s] || steps[s]->done())
-            continue;
-        total += readers[s].collapses() + readers[s].removals();
-        heads.push({steps[s]->key(), s});
+        triangles += readers[s].trianglesAfter(0);
+        for (const Block& block : blocks[s])
+            total += block.steps;
+        if (!blocks[s].empty())
+            heads.push({blocks[s].front().key(), s});
     }
     triangles_.reserve(total);
     error_.reserve(total);
     triangles_.push_back(triangles);
     error_.push_back(0.0f);
+    std::vector<std::size_t> next(readers.size(), 0);
     double error = 0.0;
     while (!heads.empty()) {
         const std::uint32_t s = heads.top().submesh;
         heads.pop();
-        Steps& of = *steps[s];
-        const bool collapse = of.nextIsCollapse();
-        std::vector<std::uint32_t>& positions =
-            collapse ? positions_[s].collapses : positions_[s].removals;
-        for (std::uint32_t left = of.nextCount(); left > 0; --left) {
-            const SubmeshState before = of.state();
-            of.take();
-            triangles -= readers[s].trianglesAt(before) - readers[s].trianglesAt(of.state());
-            error = std::max(
-                error,
-                collapse ? readers[s].collapseError(before.step)
-                         : readers[s].removalError(readers[s].instances() - before.kept_instances));
-            positions.push_back(static_cast<std::uint32_t>(triangles_.size()));
+        const Block& block = blocks[s][next[s]++];
+        for (std::uint32_t k = 0; k < block.steps; ++k) {
+            const auto step = static_cast<std::uint32_t>(positions_[s].size());
+            triangles -= readers[s].trianglesAfter(step) - readers[s].trianglesAfter(step + 1);
+            error = std::max(error, readers[s].errorOf(step, set.max_stretch[s]));
+            positions_[s].push_back(static_cast<std::uint32_t>(triangles_.size()));
             triangles_.push_back(triangles);
             error_.push_back(static_cast<float>(100.0 * error / set.diagonal));
         }
-        if (!of.done())
-            heads.push({of.key(), s});
+        if (next[s] < blocks[s].size())
+            heads.push({blocks[s][next[s]].key(), s});
     }
 }
 
 SubmeshState Schedule::stateAt(std::size_t submesh, std::uint64_t position) const {
-    const auto done = [&](const std::vector<std::uint32_t>& at) {
-        return static_cast<std::uint32_t>(std::ranges::upper_bound(at, position) - at.begin());
-    };
-    const StepPositions& positions = positions_[submesh];
-    return {done(positions.collapses), set_->ranges[submesh].size() - done(positions.removals)};
+    const std::vector<std::uint32_t>& at = positions_[submesh];
+    const auto done =
+        static_cast<std::uint32_t>(std::ranges::upper_bound(at, position) - at.begin());
+    const std::uint32_t instances = set_->ranges[submesh].size();
+    const std::uint32_t collapses = instances > 0 ? set_->sequences[submesh].step_count : 0;
+    const std::uint32_t step = std::min(done, collapses);
+    return {step, instances - (done - step)};
 }
 
 } // namespace lodestone

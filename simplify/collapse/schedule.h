@@ -27,10 +27,8 @@ struct SubmeshState {
 
 class Schedule {
 public:
-    // Steps of a submesh: its collapses down to its floor, and its removals. The order of either
-    // never changes; how they interleave, and the submeshes, is the ordering's choice: the cheapest
-    // for what it gains comes first. By cost a submesh's removals follow its last collapse.
-    // O(steps log submeshes).
+    // Steps of a submesh: its collapses down to its floor, then its removals. Their order never
+    // changes; how the submeshes interleave is the ordering's choice. O(steps log submeshes).
     // bytes: may be null unless the ordering is by byte.
     Schedule(const SequenceSet& set, const ScheduleOptions& options, const ByteModel* bytes);
 
@@ -43,16 +41,10 @@ public:
     SubmeshState stateAt(std::size_t submesh, std::uint64_t position) const;
 
 private:
-    // Where a submesh's steps come, rising.
-    struct StepPositions {
-        std::vector<std::uint32_t> collapses;
-        std::vector<std::uint32_t> removals;
-    };
-
-    const SequenceSet* set_;               // outlives the schedule
-    std::vector<StepPositions> positions_; // [submeshes]
-    std::vector<std::uint64_t> triangles_; // [positions]
-    std::vector<float> error_;             // [positions]
+    const SequenceSet* set_;                            // outlives the schedule
+    std::vector<std::vector<std::uint32_t>> positions_; // [submeshes][its steps] where they come
+    std::vector<std::uint64_t> triangles_;              // [positions]
+    std::vector<float> error_;                          // [positions]
 };
 
 } // namespace lodestone
