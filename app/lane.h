@@ -51,9 +51,10 @@ struct LaneNumbers {
     // that are still to be transferred.
     std::uint64_t predicted_bytes = 0;
     bool bytes_estimated = false; // such textures count in predicted_bytes
-    std::uint64_t kept_bytes = 0; // predicted_bytes with the textures that the scene has
-    double error_estimate = 0.0;  // % of the diagonal
-    std::string note;             // why the target was missed; empty if met
+    // predicted_bytes with the textures that the scene has: what targets and charts go by.
+    std::uint64_t kept_bytes = 0;
+    double error_estimate = 0.0; // % of the diagonal
+    std::string note;            // why the target was missed; empty if met
 };
 
 // By the papers' protocol: drawn off screen again and again.

@@ -7,6 +7,7 @@
 #include "app/texture_jobs.h"
 #include "scene/generate.h"
 #include "scene/import.h"
+#include "simplify/bake/baked_size.h"
 
 #include <algorithm>
 #include <chrono>
@@ -50,16 +51,19 @@ Result<JobResult> writeLod(Written written,
                            const std::filesystem::path& path,
                            const ExportOptions& options,
                            const JobContext& context) {
+    std::vector<std::string> notes;
     if (written.textures) {
         const Result<LaneTexturesPtr> textures = makeLaneTextures(*written.textures, context);
         if (!textures)
             return tl::unexpected<Error>(textures.error());
         written.shown = {(*textures)->baked.scene, (*textures)->lod};
+        notes = (*textures)->baked.notes;
     }
     Result<ExportReport> report =
         exportScene(*written.shown.scene, *written.shown.lod, path, options);
     if (!report)
         return tl::unexpected<Error>(std::move(report.error()));
+    report->notes.insert(report->notes.end(), notes.begin(), notes.end());
     return JobResult(std::move(*report));
 }
 
@@ -428,13 +432,21 @@ bool Session::updateUntilIdle(double timeout_s) {
     return false;
 }
 
-std::uint64_t Session::predictedBytes(LaneId lane_id, const ExportOptions& options) {
+Session::PredictedSize Session::predictedSize(LaneId lane_id, const ExportOptions& options) {
     const Lane* lane = impl_->document.findLane(lane_id);
     if (!lane || !lane->status.lod)
-        return 0;
-    const DrawnLod shown = drawnLod(lane->status);
-    const ByteModelPtr model = impl_->lanes.byteModel(shown.scene, options);
-    return model ? model->bytes(shapeOf(*shown.scene, *shown.lod)) : 0;
+        return {};
+    const LaneStatus& status = lane->status;
+    const std::optional<BakeOptions> wanted = wantedTextures(lane->settings);
+    const bool bakes_first = wanted && !hasTextures(status, *wanted);
+    const DrawnLod written = bakes_first ? DrawnLod{status.scene, status.lod} : drawnLod(status);
+    const ByteModelPtr model = impl_->lanes.byteModel(written.scene, options);
+    if (!model)
+        return {};
+    const std::uint64_t bytes = model->bytes(shapeOf(*written.scene, *written.lod));
+    if (bakes_first)
+        return {estimateBakedBytes(*status.scene, *status.lod, *wanted, bytes), true};
+    return {bytes, isEstimated(options)};
 }
 
 void Session::setFrameTime(LaneId lane_id, double frame_ms) {

@@ -32,9 +32,14 @@ public:
     // Returns whether it got there.
     bool updateUntilIdle(double timeout_s);
 
-    // Exact size of a lane's LOD written with other options, for the export dialog. Cached per
-    // scene and options. 0 if the lane shows nothing, and while a job works it out.
-    std::uint64_t predictedBytes(LaneId lane, const ExportOptions& options);
+    // Size of a lane's LOD written with other options, for the export dialog. Cached per scene and
+    // options. 0 if the lane shows nothing, and while a job works it out.
+    struct PredictedSize {
+        std::uint64_t bytes = 0;
+        bool estimated = false; // else exact
+    };
+
+    PredictedSize predictedSize(LaneId lane, const ExportOptions& options);
     // What the window finds out: what drawing a lane cost, what measuring its rate gave, how much
     // its picture differs from the original's (nullopt: not known any more), and how large views
     // are.

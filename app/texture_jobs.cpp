@@ -139,6 +139,9 @@ void TextureJobs::commit(Document& document, FinishedJob& finished) {
         return;
     Work& work = found->second;
     work.job = 0;
+    const std::optional<BakeOptions> wanted = wantedTextures(lane->settings);
+    if (!wanted || !(work.key == Key{lane->status.lod_revision, *wanted}))
+        return;
     if (finished.result) {
         lane->status.textures = std::get<LaneTexturesPtr>(*finished.result);
         for (const std::string& note : lane->status.textures->baked.notes)

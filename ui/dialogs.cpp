@@ -137,8 +137,8 @@ void instancingRow(
              Align::Left,
              instancingHelp(instancing),
              {nullptr, color::kSecondary});
-    const std::uint64_t size_bytes = input.session.predictedBytes(lane, options);
-    const std::string about = isEstimated(options) ? "~" : "";
+    const auto [size_bytes, estimated] = input.session.predictedSize(lane, options);
+    const std::string about = estimated ? "~" : "";
     const float right = begin.x + width - ui.px(10);
     drawText(ui,
              {right, y},

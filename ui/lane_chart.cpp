@@ -36,7 +36,7 @@ struct Axes {
 
     // What the lane shows now.
     double valueOf(const LaneNumbers& numbers) const {
-        return kind == ChartKind::Size ? static_cast<double>(numbers.predicted_bytes)
+        return kind == ChartKind::Size ? static_cast<double>(numbers.kept_bytes)
                                        : numbers.error_estimate;
     }
 

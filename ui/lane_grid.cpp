@@ -149,7 +149,7 @@ void drawFreeCell(const Ui& ui, const Area& area) {
     const float dot = ui.px(16);
     const std::span<const Algorithm> all = algorithms();
     const float height = area.size.y - 2 * margin;
-    const auto rows = std::max<std::size_t>(1, static_cast<std::size_t>(height / line) - 1);
+    const auto rows = static_cast<std::size_t>(std::max(1.0f, height / line - 1.0f));
     const std::size_t columns = (all.size() + rows - 1) / rows;
     const std::size_t in_column = (all.size() + columns - 1) / columns;
     const auto nameOf = [&](const Algorithm& algorithm) {

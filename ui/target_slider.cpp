@@ -34,7 +34,7 @@ std::optional<double> newValue(const TargetScale& scale, const SliderEvent& even
 std::uint64_t largestBytes(const PanelInput& input, const WindowState& state) {
     std::uint64_t largest = 0;
     for (const Lane& lane : input.document.lanes) {
-        largest = std::max(largest, lane.status.numbers.predicted_bytes);
+        largest = std::max(largest, lane.status.numbers.kept_bytes);
         const SizeCurve& curve = state.curves.of(lane.id);
         if (!curve.empty())
             largest = std::max(largest, static_cast<std::uint64_t>(curve.back().size_bytes));
@@ -50,7 +50,7 @@ Target sameTarget(const Lane& lane, Target::Kind kind) {
     case Target::Kind::Triangles:
         return {kind, static_cast<double>(std::max<std::uint64_t>(1, numbers.triangles))};
     case Target::Kind::Bytes:
-        return {kind, static_cast<double>(std::max<std::uint64_t>(1, numbers.predicted_bytes))};
+        return {kind, static_cast<double>(std::max<std::uint64_t>(1, numbers.kept_bytes))};
     case Target::Kind::Error:
         return {kind, std::max(1e-4, numbers.error_estimate)};
     }

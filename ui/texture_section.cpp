@@ -21,7 +21,7 @@ std::string densityText(double texels_per_unit) {
     return number;
 }
 
-// "0.81 x of the original"
+// "0.81× original"
 std::string relativeText(double texels_per_unit, double original_texels_per_unit) {
     if (original_texels_per_unit <= 0.0)
         return {};
@@ -114,11 +114,11 @@ void drawResult(const Ui& ui, const PanelInput& input, WindowState& state, const
         ImGui::TextDisabled("Nothing here has a texture.");
         return;
     }
-    const auto coarsest =
-        std::ranges::min_element(textures->previews, {}, &AtlasPreview::texels_per_unit);
+    const std::vector<BakedAtlas>& atlases = textures->baked.atlases;
+    const auto coarsest = std::ranges::min_element(atlases, {}, &BakedAtlas::texels_per_unit);
     if (lane.status.texture_progress)
         drawProgress(ui, *lane.status.texture_progress);
-    else
+    else if (coarsest != atlases.end())
         labelledValue(ui,
                       "Texels a unit",
                       densityText(coarsest->texels_per_unit),

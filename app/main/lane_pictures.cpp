@@ -42,15 +42,16 @@ std::vector<ViewSet::Wanted> LanePictures::wantedPictures(const Document& docume
         const bool drafted = !differences && now < rests_at;
         const std::shared_ptr<const Lod> draft =
             drafted ? drafts_.draftOf(document, *lane) : nullptr;
-        DrawnLod shown = drawnLod(status);
+        const DrawnLod drawn = drawnLod(status);
+        DrawnLod shown = drawn;
         if (draft)
             shown = {status.scene, status.lod};
         if (heat && status.error_map.lod)
             shown = {status.scene, status.error_map.lod};
         wanted.push_back(
             {view.lane, shown.scene, shown.lod, draft, {sized.width_px, sized.height_px}, {}});
-        if (shown.scene != status.scene)
-            wanted.back().kept_scene = status.scene;
+        // Where a draft shows the scene without its transferred textures, those come back at rest.
+        wanted.back().kept_scene = shown.scene == drawn.scene ? status.scene : drawn.scene;
         if (differences || highlighted.empty() || !shown.scene)
             continue;
         wanted.back().highlighted = highlighted;

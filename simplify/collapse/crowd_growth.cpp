@@ -3,6 +3,7 @@
 #include "simplify/collapse/sequence.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 

@@ -5,6 +5,7 @@
 #include "simplify/collapse/removal_order.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 

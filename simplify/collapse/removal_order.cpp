@@ -4,7 +4,6 @@
 #include "simplify/collapse/removal_grid.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <ranges>

@@ -14,9 +14,9 @@ struct Member {
     double area = 0.0;
 };
 
-// Whether areas of instances are so far apart that each size is thinned on its own.
-constexpr double kSizeFactor = 16.0;
+constexpr double kSizeFactor = 16.0; // between areas of one size and of the next
 
+// Whether areas of instances are so far apart that each size is thinned on its own.
 constexpr bool differInSize(double least_area, double most_area) {
     return most_area > kSizeFactor * least_area;
 }

@@ -83,7 +83,10 @@ private:
     }
 
     CloudDraft simplified(std::size_t s, CloudSettings settings, const JobContext& job) const;
-    CloudDraft draftOf(std::size_t s, std::uint64_t position, const JobContext& job) const;
+    CloudDraft draftOf(std::size_t s,
+                       std::uint64_t position,
+                       const CloudDrafts* shaped,
+                       const JobContext& job) const;
     CloudDraft draftWithin(std::size_t s,
                            const CloudSettings& settings,
                            CloudFloor floor,
@@ -148,8 +151,11 @@ CloudDraft PointCloudSource::draftWithin(std::size_t s,
     return keepsFloor(cloud_->submeshes[s], draft, floor) ? draft : coarsestAllowed(s, floor, job);
 }
 
-CloudDraft
-PointCloudSource::draftOf(std::size_t s, std::uint64_t position, const JobContext& job) const {
+// shaped: those of the last rung, where position is beyond it.
+CloudDraft PointCloudSource::draftOf(std::size_t s,
+                                     std::uint64_t position,
+                                     const CloudDrafts* shaped,
+                                     const JobContext& job) const {
     const CloudSubmesh& submesh = cloud_->submeshes[s];
     const bool locked = !schedule_.locked.empty() && schedule_.locked[s];
     if (position == 0 || locked || submesh.surface.faces.empty())
@@ -163,12 +169,11 @@ PointCloudSource::draftOf(std::size_t s, std::uint64_t position, const JobContex
     const auto settingsAt = [&](std::uint64_t rung) {
         return ladder_.settingsOf(rung, options_.settings);
     };
-    if (position <= ladder_.last())
+    if (!shaped)
         return draftWithin(s, settingsAt(position), floor, job);
-    CloudDraft shaped = coarsestAllowed(s, CloudFloor::Shape, job);
     CloudDraft coarser =
         draftWithin(s, settingsAt(position - ladder_.last()), CloudFloor::Triangles, job);
-    return coarser.triangles < shaped.triangles ? coarser : shaped;
+    return coarser.triangles < shaped->submeshes[s].triangles ? coarser : shaped->submeshes[s];
 }
 
 CloudCountsPtr PointCloudSource::countsOf(const CloudDrafts& drafts) const {
@@ -189,11 +194,17 @@ CloudCountsPtr PointCloudSource::countsOf(const CloudDrafts& drafts) const {
 CloudDraftsPtr PointCloudSource::draftsAt(std::uint64_t position, const JobContext& job) const {
     if (CloudDraftsPtr known = cache_.drafts(position))
         return known;
+    CloudDraftsPtr shaped;
+    if (!isGiven() && position > ladder_.last()) {
+        shaped = draftsAt(ladder_.last(), job);
+        if (!shaped)
+            return nullptr;
+    }
     auto drafts = std::make_shared<CloudDrafts>();
     drafts->position = position;
     drafts->submeshes.resize(cloud_->submeshes.size());
     tbb::parallel_for(std::size_t{0}, drafts->submeshes.size(), [&](std::size_t s) {
-        drafts->submeshes[s] = draftOf(s, position, job);
+        drafts->submeshes[s] = draftOf(s, position, shaped.get(), job);
     });
     if (job.stopRequested())
         return nullptr;

@@ -180,9 +180,9 @@ TEST_F(SessionTest, ASizeForOtherExportOptionsIsWhatAnExportWithThemWrites) {
     send(session, OpenSample{"chair"});
     const LaneId id = session.document().lanes[1].id;
     const ExportOptions nodes{Instancing::Nodes, Container::Glb};
-    EXPECT_EQ(session.predictedBytes(id, nodes), 0u) << "no frame waits for it";
+    EXPECT_EQ(session.predictedSize(id, nodes).bytes, 0u) << "no frame waits for it";
     ASSERT_TRUE(session.updateUntilIdle(30.0));
-    const std::uint64_t predicted = session.predictedBytes(id, nodes);
+    const std::uint64_t predicted = session.predictedSize(id, nodes).bytes;
     send(session, SetExportOptions{nodes});
     send(session, Export{id, folder / "nodes.glb"});
     EXPECT_EQ(std::filesystem::file_size(folder / "nodes.glb"), predicted);

@@ -112,8 +112,13 @@ TEST_F(TextureJobsTest, ASizeIsEstimatedUntilTheTexturesAreThereThenThatOfTheFil
     set("texture", 1.0);
     EXPECT_TRUE(lane().status.numbers.bytes_estimated);
     EXPECT_GT(lane().status.numbers.predicted_bytes, lane().status.numbers.kept_bytes);
+    const ExportOptions& options = session.document().export_options;
+    EXPECT_TRUE(session.predictedSize(lane().id, options).estimated);
     finish();
     EXPECT_FALSE(lane().status.numbers.bytes_estimated);
+    EXPECT_FALSE(session.predictedSize(lane().id, options).estimated);
+    EXPECT_EQ(session.predictedSize(lane().id, options).bytes,
+              lane().status.numbers.predicted_bytes);
     send(Export{lane().id, folder / "written.glb"});
     finish();
     EXPECT_EQ(std::filesystem::file_size(folder / "written.glb"),
