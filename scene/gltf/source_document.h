@@ -24,9 +24,9 @@ struct SourceDocument { // NOLINT(bugprone-exception-escape): json moves without
     // [json.buffers] resolved bytes of each; copies of a document share them.
     std::shared_ptr<std::vector<std::vector<std::byte>>> buffers =
         std::make_shared<std::vector<std::vector<std::byte>>>();
-    std::filesystem::path folder;                // where external files lie
-    std::vector<std::uint32_t> mesh_of_submesh;  // [scene.submeshes] index into json.meshes
-    std::vector<std::uint32_t> node_of_node;     // [scene.nodes] index into json.nodes
+    std::filesystem::path folder;               // where external files lie
+    std::vector<std::uint32_t> mesh_of_submesh; // [scene.submeshes] index into json.meshes
+    std::vector<std::uint32_t> node_of_node;    // [scene.nodes] index into json.nodes
 };
 
 } // namespace lodestone
