@@ -152,13 +152,13 @@ void drawFreeCell(const Ui& ui, const Area& area) {
     const auto rows = static_cast<std::size_t>(std::max(1.0f, height / line - 1.0f));
     const std::size_t columns = (all.size() + rows - 1) / rows;
     const std::size_t in_column = (all.size() + columns - 1) / columns;
-    const auto nameOf = [&](const Algorithm& algorithm) {
+    const auto name_of = [&](const Algorithm& algorithm) {
         return columns == 1 ? algorithm.name : algorithm.short_name;
     };
     std::vector<float> widths(columns, 0.0f);
     for (std::size_t at = 0; at < all.size(); ++at)
         widths[at / in_column] =
-            std::max(widths[at / in_column], dot + textWidth(ui, nameOf(all[at])));
+            std::max(widths[at / in_column], dot + textWidth(ui, name_of(all[at])));
     const float block =
         std::accumulate(widths.begin(), widths.end(), gap * static_cast<float>(columns - 1));
     float left = area.position.x + std::max(margin, (area.size.x - block) * 0.5f);
@@ -175,7 +175,7 @@ void drawFreeCell(const Ui& ui, const Area& area) {
             place + ImVec2(ui.px(4), ui.px(8)), ui.px(4), packed(laneColour(&all[at], 0)), 24);
         ImGui::SetCursorScreenPos(place + ImVec2(dot, 0));
         const float room = area.end().x - ui.px(4) - left - dot;
-        if (linkButton(ui, fitText(ui, nameOf(all[at]), room)))
+        if (linkButton(ui, fitText(ui, name_of(all[at]), room)))
             ui.push(AddLane{std::string(all[at].id)});
         tooltip(ui, all[at].summary);
     }

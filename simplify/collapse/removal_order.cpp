@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <ranges>
 
 namespace lodestone {
 
@@ -55,9 +54,8 @@ std::vector<std::uint32_t> thinned(std::span<const Member> members,
 // Members of about one size each, the largest first; none empty.
 std::vector<std::vector<std::uint32_t>> sizesOf(std::span<const Member> members) {
     constexpr std::size_t kMostSizes = 12;
-    const auto areas = [](const Member& member) { return member.area; };
-    const double largest = std::ranges::max(members | std::views::transform(areas));
-    const double least = std::ranges::min(members | std::views::transform(areas));
+    const double largest = std::ranges::max_element(members, {}, &Member::area)->area;
+    const double least = std::ranges::min_element(members, {}, &Member::area)->area;
     const bool alike = !differInSize(least, largest);
     std::vector<std::vector<std::uint32_t>> sizes(kMostSizes);
     for (std::uint32_t m = 0; m < members.size(); ++m) {

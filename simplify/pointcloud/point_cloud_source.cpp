@@ -166,13 +166,13 @@ CloudDraft PointCloudSource::draftOf(std::size_t s,
         settings.main = options_.main;
         return draftWithin(s, settings, floor, job);
     }
-    const auto settingsAt = [&](std::uint64_t rung) {
+    const auto settings_at = [&](std::uint64_t rung) {
         return ladder_.settingsOf(rung, options_.settings);
     };
     if (!shaped)
-        return draftWithin(s, settingsAt(position), floor, job);
+        return draftWithin(s, settings_at(position), floor, job);
     CloudDraft coarser =
-        draftWithin(s, settingsAt(position - ladder_.last()), CloudFloor::Triangles, job);
+        draftWithin(s, settings_at(position - ladder_.last()), CloudFloor::Triangles, job);
     return coarser.triangles < shaped->submeshes[s].triangles ? coarser : shaped->submeshes[s];
 }
 
