@@ -212,8 +212,9 @@ Result<bool> ViewSet::drawItem(Item& item,
     View::Input input = inputOf(item);
     input.size = wanted.size; // the item's is that of a complete picture
     // Drafts are sized to be quick; in slices they would never be seen while the camera moves.
-    const Result<DrawReport> report =
-        item.view.draw(input, wanted.draft ? View::kNoBudget : budget_ms);
+    if (wanted.draft)
+        budget_ms = View::kNoBudget;
+    const Result<DrawReport> report = item.view.draw(input, budget_ms);
     if (!report)
         return tl::unexpected(report.error());
     item.size = wanted.size;
