@@ -57,6 +57,7 @@ protected:
         EXPECT_TRUE(written);
         send(OpenScene{folder / "checked.glb"});
         finish();
+        set("atlas", 256.0); // small and quick
     }
 
     ~TextureJobsTest() override { std::filesystem::remove_all(folder); }
@@ -100,7 +101,7 @@ TEST_F(TextureJobsTest, ALaneDrawsItsOwnTexturesOnTheSameLevelAndKeepsThemAgain)
     EXPECT_EQ(drawnLod(status).lod->triangles, before.numbers.triangles);
     ASSERT_EQ(status.textures->previews.size(), 1u);
     EXPECT_EQ(status.textures->previews[0].before_px, 32u);
-    EXPECT_EQ(status.textures->previews[0].after_px, 1024u);
+    EXPECT_EQ(status.textures->previews[0].after_px, 256u);
     EXPECT_GT(status.textures->previews[0].original_texels_per_unit, 0.0);
     set("texture", 0.0);
     EXPECT_FALSE(lane().status.textures);
@@ -154,7 +155,6 @@ TEST_F(TextureJobsTest, WhileATargetIsDraggedNothingIsTransferredAfterwardsTheNe
 
 TEST_F(TextureJobsTest, AnAtlasThatIsTooSmallIsToldAndTheLevelStays) {
     send(SetLaneTarget{lane().id, {Target::Kind::Ratio, 1.0}, 0});
-    set("atlas", 256.0);
     set("texture", 1.0);
     finish();
     EXPECT_FALSE(lane().status.textures);
@@ -162,7 +162,7 @@ TEST_F(TextureJobsTest, AnAtlasThatIsTooSmallIsToldAndTheLevelStays) {
         << lane().status.texture_failure;
     EXPECT_EQ(drawnLod(lane().status).lod, lane().status.lod);
     EXPECT_FALSE(transfers());
-    set("atlas", 1024.0);
+    set("atlas", 512.0);
     finish();
     EXPECT_TRUE(lane().status.textures);
     EXPECT_TRUE(lane().status.texture_failure.empty());
