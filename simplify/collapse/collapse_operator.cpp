@@ -131,8 +131,9 @@ Float3 ComponentMesh::towardsVolume(std::uint32_t a, std::uint32_t b, Float3 at,
         area = area + faceNormal(faces_[f]);
     const float missing = dot(area_b - area_a, half) - dot(area, at);
     const float area2 = dot(area, area);
-    // Where sheets lie back to back the normal means nothing.
-    const bool sound = missing * missing < area2 * dot(half, half);
+    // Where sheets lie back to back the normal means nothing; extremes stay.
+    const bool sound =
+        missing * missing < area2 * dot(half, half) && !metrics_[a].extreme && !metrics_[b].extreme;
     return sound ? at + area * (kShare * missing / area2) : at;
 }
 
@@ -178,6 +179,7 @@ void ComponentMesh::merge(std::uint32_t a,
     log_.error2.push_back(error.error2);
     metrics_[a].quadric = merged;
     metrics_[a].boundary |= metrics_[b].boundary;
+    metrics_[a].extreme |= metrics_[b].extreme;
     points_[a].position = target;
     ++rings_[a].version;
     ++rings_[b].version;

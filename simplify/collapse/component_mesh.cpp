@@ -94,6 +94,7 @@ void ComponentMesh::placeVertices(std::span<const std::uint32_t> ids) {
             p *= kRim / distance;
             metrics_[v].locked = true;
         }
+        metrics_[v].extreme = std::ranges::binary_search(attributes_.extremes, ids[v]);
         points_[v].position = {
             static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
     }
@@ -233,6 +234,30 @@ void ComponentMesh::buildQuadrics() {
         addFaceQuadric(f);
     for (std::uint32_t v = 0; v < points_.size(); ++v)
         addBoundaryQuadrics(v);
+    if (!attributes_.extremes.empty())
+        holdExtremes();
+}
+
+// The ends of limbs, on which the box of a moving submesh rests: leaving its place costs such a
+// vertex as much as the whole surface off by as far.
+void ComponentMesh::holdExtremes() {
+    double area = 0.0;
+    double weighted = 0.0; // by instances
+    for (std::uint32_t f = 0; f < faces_.size(); ++f) {
+        const Float3 normal = faceNormal(faces_[f]);
+        area += face_weights_[f] > 0.0f ? 0.5 * std::sqrt(double{dot(normal, normal)}) : 0.0;
+        weighted += double{face_weights_[f]};
+    }
+    if (!(area > 0.0))
+        return;
+    const auto weight =
+        static_cast<float>(attributes_.area / (scale_ * scale_) * (weighted / area));
+    for (Metric& metric : metrics_)
+        if (metric.extreme && !metric.locked) {
+            metric.quadric.xx += weight;
+            metric.quadric.yy += weight;
+            metric.quadric.zz += weight;
+        }
 }
 
 float ComponentMesh::faceWeight(std::uint32_t face, float area) const {

@@ -154,6 +154,7 @@ protected: // what another metric on the same mesh builds on
         Quadric quadric;
         bool boundary = false;
         bool locked = false;
+        bool extreme = false; // keeps its place as far as that is cheap
     };
 
     struct Ring { // live faces around a vertex: a range of refs_
@@ -185,6 +186,7 @@ protected: // what another metric on the same mesh builds on
     void gatherValues();
     void buildQuadrics();
     void addFaceQuadric(std::uint32_t face);
+    void holdExtremes();
     float faceWeight(std::uint32_t face, float area) const; // 0: counts for nothing
     void chooseValues();
     float valueScale(std::uint32_t primitive, const WedgeAttributes::Slot& slot) const;

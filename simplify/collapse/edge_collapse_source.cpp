@@ -251,8 +251,12 @@ std::vector<SequenceRequest> requestsFor(SequenceSet& set, const EdgeCollapseOpt
     const Scene& scene = *set.scene;
     std::vector<SequenceRequest> requests(scene.submeshes.size());
     set.max_stretch.resize(requests.size());
+    std::vector<std::vector<Posture>> postures(requests.size());
+    if (options.collapse.attributes.motion > 0.0)
+        postures = deformingPostures(scene);
     tbb::parallel_for(std::size_t{0}, requests.size(), [&](std::size_t s) {
         requests[s].submesh = &scene.submeshes[s];
+        requests[s].postures = std::move(postures[s]);
         requests[s].instance_count = set.ranges[s].size();
         std::vector<glm::dmat3> linear_parts;
         linear_parts.reserve(set.ranges[s].size());

@@ -295,6 +295,8 @@ Result<std::vector<CollapseSequence>> buildSequences(std::span<const SequenceReq
         if (job.stopRequested())
             return;
         build.attributes = gatherAttributes(*requests[b].submesh, build.complex);
+        build.attributes.extremes =
+            extremeVertices(build.complex, build.attributes, requests[b].postures);
         build.logs.resize(build.complex.componentCount());
         build.cost_scales.resize(build.logs.size());
         build.length_scales.resize(build.logs.size());

@@ -5,6 +5,7 @@
 #include "scene/result.h"
 #include "simplify/collapse/component_mesh.h"
 #include "simplify/collapse/crowd_growth.h"
+#include "simplify/collapse/extremes.h"
 
 namespace lodestone {
 
@@ -57,7 +58,8 @@ struct SequenceRequest {
     const Submesh* submesh = nullptr;
     InstanceWeights weights;
     std::uint32_t instance_count = 1;
-    double world_weight = 1.0; // x costs (1 for the submesh's own units)
+    double world_weight = 1.0;     // x costs (1 for the submesh's own units)
+    std::vector<Posture> postures; // in which it should keep its box
 };
 
 // Builds the sequences of several submeshes, parallel over them and over their components.

@@ -135,9 +135,8 @@ void readSlot(const Attribute& attribute,
             slot.low[c] = slot.high[c] = 0.0f;
 }
 
-// Without faces that reach absurdly far out.
-double spacingOf(const Complex& complex) {
-    double area = 0.0;
+// Sets area and spacing, without faces that reach absurdly far out.
+void measureFaces(const Complex& complex, WedgeAttributes& all) {
     std::size_t faces = 0;
     for (const std::array<std::uint32_t, 3>& face : complex.faces) {
         std::array<glm::dvec3, 3> p;
@@ -145,10 +144,10 @@ double spacingOf(const Complex& complex) {
             p[k] = glm::dvec3(complex.positions[complex.wedge_vertex[face[k]]]);
         if (!std::ranges::all_of(p, [&](const auto& corner) { return complex.bulk.holds(corner); }))
             continue;
-        area += 0.5 * glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
+        all.area += 0.5 * glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
         ++faces;
     }
-    return faces > 0 ? std::sqrt(2.0 * area / static_cast<double>(faces)) : 0.0;
+    all.spacing = faces > 0 ? std::sqrt(2.0 * all.area / static_cast<double>(faces)) : 0.0;
 }
 
 double extentOf(const Complex& complex) {
@@ -230,7 +229,7 @@ WedgeAttributes gatherAttributes(const Submesh& submesh, const Complex& complex)
                          [&](const Attribute& attribute, Slot& slot) {
                              readSlot(attribute, slot, complex, p, all);
                          });
-    all.spacing = spacingOf(complex);
+    measureFaces(complex, all);
     if (moves)
         gatherMotion(submesh, complex, all);
     return all;

@@ -54,6 +54,9 @@ struct WedgeAttributes {
     // so that differences have the length that all motions' differences have together, on average.
     static constexpr std::size_t kMotionValues = 3;
     std::vector<float> motion; // [wedges * kMotionValues]; empty: nothing moves
+
+    std::vector<std::uint32_t> extremes; // welded vertices that keep their place, rising
+    double area = 0.0;                   // of all faces
 };
 
 // Layout and values of a submesh's attributes.

@@ -10,9 +10,9 @@
 namespace lodestone {
 namespace {
 
-// A LOD of fewer triangles lacks ears and toes at rest already; a vertex that flies off would still
-// put its box off by more than the second number.
-constexpr std::uint64_t kFewestForExtremities = 200;
+// A LOD of a handful of triangles, four of a cube's twelve, cannot fill the box; a vertex that
+// flies off would still put it off by more than the second number.
+constexpr std::uint64_t kFewestForExtremities = 30;
 constexpr double kMostOfFew = 0.2;
 
 // The largest way by which a face of one box lies off the other's, in units of the diagonal.
