@@ -127,8 +127,9 @@ measurePointCloud(const BenchOptions& options, Inputs& inputs, const TitleFilter
         {"",
          "\n## Six point-cloud methods\n\n"
          "Thresholds as in the paper, for a bunny of its size. Frame: mean of the 100th to the "
-         "1,100th rendering off screen, 256 px square, wall time, the original and all others "
-         "in turns of 50 frames, as many turns as fit 200 seconds; change: against the "
+         "1,100th rendering off screen, 256 px square, wall time, and CPU time of all threads "
+         "(where the CPU draws, what else the machine does stays out of it), the original and all "
+         "others in turns of 10 frames, as many turns as fit 200 seconds; change: against the "
          "original, median over the turns (the paper: 23–30 % faster). Build: CPU seconds on all "
          "threads from the scene to the LOD. Distances are % of the diagonal.\n" +
              text.str()});

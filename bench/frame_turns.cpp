@@ -42,9 +42,9 @@ std::vector<View::Input> inputsFor(std::span<const OnGpu> columns, int size_px) 
 
 } // namespace
 
-Result<std::vector<std::vector<double>>> timeFramesInTurns(std::span<const FrameColumn> columns,
-                                                           const FrameTurns& turns) {
-    std::vector<std::vector<double>> times(columns.size());
+Result<std::vector<FrameTimes>> timeFramesInTurns(std::span<const FrameColumn> columns,
+                                                  const FrameTurns& turns) {
+    std::vector<FrameTimes> times(columns.size());
     if (columns.empty())
         return times;
     const auto context = createHeadlessContext();
@@ -60,16 +60,21 @@ Result<std::vector<std::vector<double>>> timeFramesInTurns(std::span<const Frame
     if (!view)
         return tl::unexpected(view.error());
     const std::vector<View::Input> inputs = inputsFor(*uploaded, turns.size_px);
-    const double begun = wallSeconds();
+    double begun = 0.0; // the second turn
     for (int turn = 0; turn < turns.turns; ++turn) {
-        if (turn > 0 && turns.budget_s > 0.0 && wallSeconds() - begun >= turns.budget_s)
+        if (turn == 1)
+            begun = wallSeconds();
+        if (turn > 1 && turns.budget_s > 0.0 && wallSeconds() - begun >= turns.budget_s)
             break;
         for (std::size_t c = 0; c < inputs.size(); ++c) {
             const int warm_up = turn == 0 ? turns.warm_up : 1; // caches hold another's data
+            const double cpu_begun = cpuSeconds();
             const auto measured = view->measure(inputs[c], {warm_up, turns.frames_a_turn, 0.0});
             if (!measured)
                 return tl::unexpected(measured.error());
-            times[c].push_back(measured->mean_ms);
+            times[c].wall_ms.push_back(measured->mean_ms);
+            times[c].cpu_ms.push_back(1000.0 * (cpuSeconds() - cpu_begun) /
+                                      (warm_up + turns.frames_a_turn));
         }
     }
     return times;

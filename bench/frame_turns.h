@@ -16,16 +16,21 @@ struct FrameColumn {
 
 struct FrameTurns {
     int warm_up = 100; // frames of each column before the first turn, not counted
-    int turns = 20;
-    int frames_a_turn = 50; // counted; 20 * 50: the 100th to the 1,100th
-    double budget_s = 0.0;  // > 0: no turn begins after that many seconds; one does anyway
+    int turns = 100;
+    int frames_a_turn = 10; // counted; 100 * 10: the 100th to the 1,100th
+    double budget_s = 0.0;  // > 0: no turn begins that many seconds after the second; two do anyway
     int size_px = 256;      // square, without antialiasing: vertices are to count, not pixels
 };
 
-// Milliseconds of wall time a frame [columns][turns], the mean of a turn: A B C, A B C, ... in one
-// context with one camera, so that what drifts falls on all alike.
-// columns: the first is framed. Errors: those of the renderer. Main thread.
-Result<std::vector<std::vector<double>>> timeFramesInTurns(std::span<const FrameColumn> columns,
-                                                           const FrameTurns& turns);
+// Milliseconds a frame, the mean of each turn.
+struct FrameTimes {
+    std::vector<double> wall_ms;
+    std::vector<double> cpu_ms; // of all threads; where the CPU draws, what else is busy stays out
+};
+
+// [columns]; A B C, A B C, ... in one context with one camera, so that what drifts falls on all
+// alike. columns: the first is framed. Errors: those of the renderer. Main thread.
+Result<std::vector<FrameTimes>> timeFramesInTurns(std::span<const FrameColumn> columns,
+                                                  const FrameTurns& turns);
 
 } // namespace lodestone::bench

@@ -172,8 +172,8 @@ Result<std::vector<ProtocolRow>> simplifyAll(const ScenePtr& scene, PointCloudEx
     return rows;
 }
 
-// Milliseconds [1 + rows][turns]: of the scene itself, then of each row's LOD.
-Result<std::vector<std::vector<double>>>
+// [1 + rows]: of the scene itself, then of each row's LOD.
+Result<std::vector<FrameTimes>>
 timeFrames(const ScenePtr& scene, std::span<const ProtocolRow> rows, PointCloudExtent extent) {
     std::vector<FrameColumn> columns{{scene, std::make_shared<const Lod>(fullLod(*scene))}};
     for (const ProtocolRow& row : rows)
@@ -181,7 +181,7 @@ timeFrames(const ScenePtr& scene, std::span<const ProtocolRow> rows, PointCloudE
     FrameTurns turns;
     turns.budget_s = 200.0; // for where the CPU draws and is busy, too
     if (extent == PointCloudExtent::Quick)
-        turns.turns = 4;
+        turns.turns = 20;
     return timeFramesInTurns(columns, turns);
 }
 
@@ -197,31 +197,37 @@ Result<void> writeProtocol(std::ostream& out, const ScenePtr& scene, PointCloudE
     const auto times = timeFrames(scene, *rows, extent);
     if (!times)
         return tl::unexpected(times.error());
-    const std::vector<double>& before = times->front();
-    out << fmt::format("Before: {} vertices, {} triangles, {:.3f} ms a frame, {} edges with one "
-                       "face / with more than two. {} frames of each were counted.\n\n"
-                       "| method | parameter | vertices | triangles | frame | change | build | "
-                       "Hausdorff | mean | open / non-manifold edges |\n"
-                       "|---|---|---|---|---|---|---|---|---|---|\n",
-                       countText(uniqueVertices(full)),
-                       countText(full.triangles),
-                       meanOf(before),
-                       edgeText(countEdges(full)),
-                       countText(before.size() * std::uint64_t{FrameTurns{}.frames_a_turn}));
+    const FrameTimes& before = times->front();
+    out << fmt::format(
+        "Before: {} vertices, {} triangles, {:.3f} ms a frame, {:.3f} ms of CPU "
+        "time, {} edges with one face / with more than two. {} frames of each were "
+        "counted.\n\n"
+        "| method | parameter | vertices | triangles | frame | change | CPU time | "
+        "change | build | Hausdorff | mean | open / non-manifold edges |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|---|\n",
+        countText(uniqueVertices(full)),
+        countText(full.triangles),
+        meanOf(before.wall_ms),
+        meanOf(before.cpu_ms),
+        edgeText(countEdges(full)),
+        countText(before.wall_ms.size() * std::uint64_t{FrameTurns{}.frames_a_turn}));
     for (std::size_t r = 0; r < rows->size(); ++r) {
         const ProtocolRow& row = (*rows)[r];
-        const std::vector<double>& frames = (*times)[r + 1];
+        const FrameTimes& frames = (*times)[r + 1];
         const Lod& lod = *row.result.lod;
         const Result<Distance> distance = distanceToFull({scene.get(), &lod});
         if (!distance)
             return tl::unexpected(distance.error());
-        out << fmt::format("| {} | {} | {} | {} | {:.3f} ms | {} | {} | {} | {} | {} |\n",
+        out << fmt::format("| {} | {} | {} | {} | {:.3f} ms | {} | {:.3f} ms | {} | {} | {} | {} | "
+                           "{} |\n",
                            row.method,
                            row.label,
                            countText(uniqueVertices(lod)),
                            countText(lod.triangles),
-                           meanOf(frames),
-                           changeText(medianRatio(frames, before)),
+                           meanOf(frames.wall_ms),
+                           changeText(medianRatio(frames.wall_ms, before.wall_ms)),
+                           meanOf(frames.cpu_ms),
+                           changeText(medianRatio(frames.cpu_ms, before.cpu_ms)),
                            secondsText(row.result.cpu_seconds),
                            percentText(distance->hausdorff),
                            percentText(distance->mean),
