@@ -2,6 +2,7 @@
 #include "tests/simplify/meshes.h"
 
 #include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 namespace lodestone {
