@@ -110,7 +110,8 @@ struct JobQueue::Impl {
     template <class Predicate>
     void cancelIf(const Predicate& matches) {
         for (auto job = jobs.begin(); job != jobs.end();) {
-            if (!matches(*job)) {
+            const auto& no_return = job->spec.no_return;
+            if (!matches(*job) || (no_return && !no_return->close())) {
                 ++job;
                 continue;
             }
@@ -153,10 +154,7 @@ JobId JobQueue::start(JobSpec spec) {
 }
 
 void JobQueue::cancel(JobId id) {
-    impl_->cancelIf([id](const Job& job) {
-        const bool writing = job.running() && job.spec.kind == JobKind::Export;
-        return !writing && (id == 0 || job.id == id);
-    });
+    impl_->cancelIf([id](const Job& job) { return id == 0 || job.id == id; });
 }
 
 void JobQueue::cancel(LaneId lane, JobKind kind) {

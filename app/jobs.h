@@ -1,6 +1,7 @@
 #pragma once
 // Slow work beside the main thread. A job owns its inputs and captures nothing else.
 #include "app/document.h"
+#include "app/point_of_no_return.h"
 #include "scene/export.h"
 
 #include <functional>
@@ -44,6 +45,8 @@ struct JobSpec {
     std::uint64_t revision = 0; // of what the result is for; handed back unchanged
     std::string label;          // "Building IAS"
     std::function<Result<JobResult>(const JobContext&)> run;
+    // What `run` asks before it does what cannot be undone; null: it does no such thing.
+    std::shared_ptr<PointOfNoReturn> no_return = nullptr;
 };
 
 struct FinishedJob {
@@ -58,7 +61,8 @@ struct FinishedJob {
 // Newest wins: a job that is started cancels an older one of the same lane and kind, except
 // exports and predictions, which all run. A cancelled job leaves status() at once and its result is
 // dropped; if it does not look at its stop token (a library call) its thread is left alone until it
-// returns. All members: main thread.
+// returns. One that has passed its point of no return is not cancelled: it is as good as done. All
+// members: main thread.
 class JobQueue {
 public:
     // worker_threads: how many jobs run at a time, >= 1, predictions, which are short, not counted.
@@ -70,7 +74,7 @@ public:
     JobQueue& operator=(const JobQueue&) = delete;
 
     JobId start(JobSpec spec);
-    void cancel(JobId id); // 0: all. Returns at once. Running exports are not cancelled
+    void cancel(JobId id); // 0: all. Returns at once
     void cancel(LaneId lane, JobKind kind);
     std::vector<FinishedJob> poll();       // in the order of start; starts waiting jobs
     std::vector<JobStatus> status() const; // waiting and running, in the order of start

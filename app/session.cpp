@@ -50,6 +50,7 @@ Written writtenOf(const Lane& lane) {
 Result<JobResult> writeLod(Written written,
                            const std::filesystem::path& path,
                            const ExportOptions& options,
+                           PointOfNoReturn& no_return,
                            const JobContext& context) {
     std::vector<std::string> notes;
     if (written.textures) {
@@ -59,8 +60,9 @@ Result<JobResult> writeLod(Written written,
         written.shown = {(*textures)->baked.scene, (*textures)->lod};
         notes = (*textures)->baked.notes;
     }
+    const ExportGate gate{context.stop, [&no_return] { return no_return.pass(); }};
     Result<ExportReport> report =
-        exportScene(*written.shown.scene, *written.shown.lod, path, options);
+        exportScene(*written.shown.scene, *written.shown.lod, path, options, gate);
     if (!report)
         return tl::unexpected<Error>(std::move(report.error()));
     report->notes.insert(report->notes.end(), notes.begin(), notes.end());
@@ -133,10 +135,12 @@ struct Session::Impl {
         spec.kind = JobKind::Export;
         spec.lane = lane->id;
         spec.label = fmt::format("Writing {}", command.path.filename().string());
+        spec.no_return = std::make_shared<PointOfNoReturn>();
         spec.run = [written = writtenOf(*lane),
                     path = command.path,
-                    export_options = document.export_options](const JobContext& context) {
-            return writeLod(written, path, export_options, context);
+                    export_options = document.export_options,
+                    no_return = spec.no_return](const JobContext& context) {
+            return writeLod(written, path, export_options, *no_return, context);
         };
         const JobId id = jobs.start(std::move(spec));
         export_paths[id] = command.path;

@@ -90,11 +90,18 @@ Result<void> AtomicFile::write(std::span<const std::byte> bytes) {
     return {};
 }
 
-Result<void> AtomicFile::commit() {
+Result<void> AtomicFile::sync() {
     if (::fsync(descriptor_) != 0)
         return failure("write");
     if (::close(std::exchange(descriptor_, -1)) != 0)
         return failure("write");
+    return {};
+}
+
+Result<void> AtomicFile::commit() {
+    if (descriptor_ >= 0)
+        if (Result<void> synced = sync(); !synced)
+            return synced;
     if (::rename(temporary_.c_str(), path_.c_str()) != 0)
         return failure("replace the file");
     temporary_.clear();

@@ -21,7 +21,9 @@ public:
     ~AtomicFile();
 
     Result<void> write(std::span<const std::byte> bytes);
-    Result<void> commit();
+    // Everything written is on the disk, and nothing more can be: commit() only renames.
+    Result<void> sync();
+    Result<void> commit(); // after sync(), or with it
 
 private:
     AtomicFile(std::filesystem::path path, std::filesystem::path temporary, int descriptor);

@@ -46,7 +46,14 @@ std::uint64_t glbBytes(const Content& content) {
            (content.binary_bytes > 0 ? 8 + content.binary_bytes : 0);
 }
 
-Result<void> writeGlb(const fs::path& path, Content content) {
+// The last moment at which the files may be cancelled.
+Result<void> passGate(const ExportGate& gate) {
+    if (gate.stop.stop_requested() || (gate.may_replace && !gate.may_replace()))
+        return cancelled();
+    return {};
+}
+
+Result<void> writeGlb(const fs::path& path, Content content, const ExportGate& gate) {
     const std::uint64_t bytes = glbBytes(content);
     content.json.resize(paddedTo4(content.json.size()), ' ');
     if (bytes > std::numeric_limits<std::uint32_t>::max())
@@ -66,19 +73,25 @@ Result<void> writeGlb(const fs::path& path, Content content) {
             writeNumbers(*file,
                          std::array{static_cast<std::uint32_t>(content.binary_bytes), kBinaryChunk})
                 .and_then([&] { return content.write_binary(*file); });
-    return done.and_then([&] { return file->commit(); });
+    return done.and_then([&] { return file->sync(); })
+        .and_then([&] { return passGate(gate); })
+        .and_then([&] { return file->commit(); });
 }
 
 // Images first, then the buffer, the .gltf that refers to them last.
-Result<void>
-writeGltf(const fs::path& path, std::span<const ImageFile> images, const Content& content) {
+Result<void> writeGltf(const fs::path& path,
+                       std::span<const ImageFile> images,
+                       const Content& content,
+                       const ExportGate& gate) {
     std::vector<AtomicFile> files;
     const auto add = [&](const fs::path& target, const auto& write) -> Result<void> {
+        if (gate.stop.stop_requested())
+            return cancelled();
         Result<AtomicFile> file = AtomicFile::create(target);
         if (!file)
             return tl::unexpected(file.error());
         files.push_back(std::move(*file));
-        return write(files.back());
+        return write(files.back()).and_then([&] { return files.back().sync(); });
     };
     Result<void> done;
     for (const ImageFile& image : images) {
@@ -93,6 +106,8 @@ writeGltf(const fs::path& path, std::span<const ImageFile> images, const Content
         done = add(path.parent_path() / bufferFileName(path), content.write_binary);
     if (done)
         done = add(path, [&](AtomicFile& file) { return file.write(bytesOf(content.json)); });
+    if (done)
+        done = passGate(gate);
     for (AtomicFile& file : files)
         if (done)
             done = file.commit();
@@ -144,9 +159,12 @@ ExportReport reportOf(const ExportPlan& plan, const Layout& layout, const LodSha
     return report;
 }
 
-// plan, layout and lod must outlive the content.
-Result<Content>
-contentOf(const ExportPlan& plan, const Layout& layout, const Lod& lod, const fs::path& path) {
+// plan, layout, lod and gate must outlive the content.
+Result<Content> contentOf(const ExportPlan& plan,
+                          const Layout& layout,
+                          const Lod& lod,
+                          const fs::path& path,
+                          const ExportGate& gate) {
     if (isPacked(plan.options)) {
         Result<PackedDocument> packed = packedExport(plan, layout, lod, bufferFileName(path));
         if (!packed)
@@ -164,7 +182,8 @@ contentOf(const ExportPlan& plan, const Layout& layout, const Lod& lod, const fs
     return Content{std::move(*text), layout.binary_bytes, 0, [&](AtomicFile& file) {
                        Result<void> result;
                        writeBinary(plan, layout, lod, [&](std::span<const std::byte> bytes) {
-                           result = file.write(bytes);
+                           result = gate.stop.stop_requested() ? Result<void>(cancelled())
+                                                               : file.write(bytes);
                            return result.has_value();
                        });
                        return result;
@@ -198,13 +217,14 @@ widerPlan(const ExportPlan& plan, std::vector<Bounds> bounds, const Lod& lod) {
 Result<ExportReport> writeScene(const ExportPlan& plan,
                                 const Lod& lod,
                                 const StoredShape& stored,
-                                const fs::path& path) {
-    const Result<Content> content = contentOf(plan, stored.layout, lod, path);
+                                const fs::path& path,
+                                const ExportGate& gate) {
+    const Result<Content> content = contentOf(plan, stored.layout, lod, path, gate);
     if (!content)
         return tl::unexpected(content.error());
     const Result<void> done = plan.options.container == Container::Gltf
-                                  ? writeGltf(path, plan.image_files, *content)
-                                  : writeGlb(path, *content);
+                                  ? writeGltf(path, plan.image_files, *content, gate)
+                                  : writeGlb(path, *content, gate);
     if (!done)
         return tl::unexpected(done.error());
     ExportReport report = reportOf(plan, stored.layout, stored.shape);
@@ -242,7 +262,8 @@ storageNote(const Scene& scene, const LodShape& shape, const std::vector<bool>& 
 Result<ExportReport> exportScene(const Scene& scene,
                                  const Lod& lod,
                                  const fs::path& path,
-                                 const ExportOptions& options) {
+                                 const ExportOptions& options,
+                                 const ExportGate& gate) {
     ExportOptions used = options;
     used.container = isGltfPath(path, options.container) ? Container::Gltf : Container::Glb;
     const LodShape shape = shapeOf(scene, lod);
@@ -251,12 +272,14 @@ Result<ExportReport> exportScene(const Scene& scene,
     const Result<Lod> written = storage.storedLod(lod, stored.way);
     if (!written)
         return tl::unexpected(written.error());
+    if (gate.stop.stop_requested())
+        return cancelled();
     const std::unique_ptr<const ExportPlan> wider =
         widerPlan(storage.plan(), storage.bounds(), *written);
     if (wider)
         stored.layout = chooseLayout(*wider, stored.shape);
     Result<ExportReport> report =
-        writeScene(wider ? *wider : storage.plan(), *written, stored, path);
+        writeScene(wider ? *wider : storage.plan(), *written, stored, path, gate);
     if (report && stored.way > 0)
         report->notes.push_back(storageNote(scene, shape, storage.expanded(stored.way)));
     return report;

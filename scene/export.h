@@ -4,6 +4,7 @@
 #include "scene/result.h"
 
 #include <filesystem>
+#include <functional>
 
 namespace lodestone {
 
@@ -73,13 +74,22 @@ private:
     std::unique_ptr<const Impl> impl_;
 };
 
+// What may stop an export. The default never does.
+struct ExportGate {
+    std::stop_token stop; // looked at before every piece that is written
+    // Asked once, when everything is on the disk and before the first file appears: false:
+    // cancelled. Empty: true.
+    std::function<bool()> may_replace;
+};
+
 // Writes a LOD of the scene. Container follows path's extension (.glb, .gltf) over the option.
 // Atomic: temporary file beside it, then rename; an existing file survives any failure.
 // What was not simplified comes out as it went in. Same input and options, same bytes.
-// Errors: Failed (disk, folder), Cancelled. Any thread.
+// Errors: Failed (disk, folder), Cancelled (by the gate; old files stay). Any thread.
 Result<ExportReport> exportScene(const Scene& scene,
                                  const Lod& lod,
                                  const std::filesystem::path& path,
-                                 const ExportOptions& options);
+                                 const ExportOptions& options,
+                                 const ExportGate& gate = {});
 
 } // namespace lodestone

@@ -61,7 +61,7 @@ constexpr std::array kInstancings = {
 std::string_view instancingHelp(Instancing instancing) {
     switch (instancing) {
     case Instancing::Auto:
-        return "whichever of the next two is smaller";
+        return "of the others whichever is smallest, by submesh";
     case Instancing::Gpu:
         return "EXT_mesh_gpu_instancing";
     case Instancing::Nodes:
@@ -288,13 +288,16 @@ void drawAbout(const Ui& ui, const PanelInput& input, WindowState& state) {
 }
 
 void drawQuit(const Ui& ui, const PanelInput& input, WindowState& state) {
-    const bool dirty = input.document.dirty();
+    const std::vector<JobStatus>& jobs = input.document.jobs;
+    const bool writing = std::ranges::find(jobs, JobKind::Export, &JobStatus::kind) != jobs.end();
+    const char* const loss = writing ? "The export under way is cancelled; no file is changed."
+                             : input.document.dirty()
+                                 ? "What you changed since the last export is lost."
+                                 : "Nothing is lost: there are no changes.";
     drawText(
         ui, ImGui::GetCursorScreenPos(), Align::Left, "Quit Lodestone?", {ui.theme.fonts.semibold});
     ImGui::Dummy({ui.px(320), ui.px(22)});
-    ImGui::TextDisabled("%s",
-                        dirty ? "What you changed since the last export is lost."
-                              : "Nothing is lost: there are no changes.");
+    ImGui::TextUnformatted(loss);
     ImGui::Dummy({0, ui.px(4)});
     if (button(ui, "Stay", ui.px(92)))
         close(state);

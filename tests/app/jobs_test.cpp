@@ -115,6 +115,28 @@ TEST(Jobs, CancellingReturnsAtOnceEvenIfTheWorkDoesNotListen) {
     }
 }
 
+TEST(Jobs, AnExportIsCancelledUntilItPassesThePointOfNoReturn) {
+    JobQueue jobs(2);
+    const Flag release = makeFlag();
+    const Flag stopped = makeFlag();
+    JobSpec working = heldJob(1, JobKind::Export, release, stopped);
+    working.no_return = std::make_shared<PointOfNoReturn>();
+    JobSpec writing = heldJob(1, JobKind::Export, release, nullptr);
+    writing.no_return = std::make_shared<PointOfNoReturn>();
+    ASSERT_TRUE(writing.no_return->pass());
+    const auto no_return = working.no_return;
+    jobs.start(std::move(working));
+    const JobId as_good_as_done = jobs.start(std::move(writing));
+    jobs.cancel(0);
+    ASSERT_EQ(jobs.status().size(), 1u);
+    EXPECT_EQ(jobs.status()[0].id, as_good_as_done);
+    EXPECT_FALSE(no_return->pass()) << "it would replace the file all the same";
+    *release = true;
+    const std::vector<FinishedJob> finished = pollUntil(jobs, 1);
+    EXPECT_EQ(finished[0].id, as_good_as_done);
+    EXPECT_TRUE(finished[0].result.has_value());
+}
+
 TEST(Jobs, NoMoreThanTheWorkersRunAndTheRestWait) {
     JobQueue jobs(2);
     const Flag release = makeFlag();

@@ -220,6 +220,43 @@ TEST_F(ExportTest, AFullDiskLeavesTheOldFilesIntactAndNothingElse) {
     }
 }
 
+TEST_F(ExportTest, ACancelledExportLeavesTheOldFilesAndNothingElse) {
+    const ScenePtr small = fixtures::cubeScene();
+    const ScenePtr large = fixtures::gridScene(40);
+    std::stop_source stopped;
+    stopped.request_stop();
+    for (const char* name : {"old.glb", "old.gltf"}) {
+        const fs::path path = folder_ / name;
+        ASSERT_TRUE(exportScene(*small, fullLod(*small), path, {}));
+        const std::uint64_t bytes_before = folderBytes();
+        for (const Compression compression : {Compression::None, Compression::Meshopt})
+            for (const ExportGate& gate :
+                 {ExportGate{stopped.get_token(), {}}, ExportGate{{}, [] { return false; }}}) {
+                const ExportOptions options{Instancing::Auto, Container::Glb, compression};
+                const auto report = exportScene(*large, fullLod(*large), path, options, gate);
+                ASSERT_FALSE(report) << name;
+                EXPECT_EQ(report.error().kind, ErrorKind::Cancelled);
+                EXPECT_EQ(folderBytes(), bytes_before) << name;
+            }
+    }
+}
+
+TEST_F(ExportTest, TheGateIsAskedOnceAndBeforeAnyFileAppears) {
+    const ScenePtr scene = fixtures::cubeScene();
+    for (const char* name : {"new.glb", "new.gltf"}) {
+        int asked = 0;
+        const ExportGate gate{{}, [&] {
+                                  ++asked;
+                                  EXPECT_FALSE(fs::exists(folder_ / name));
+                                  EXPECT_FALSE(fs::exists(folder_ / "new.bin"));
+                                  return true;
+                              }};
+        ASSERT_TRUE(exportScene(*scene, fullLod(*scene), folder_ / name, {}, gate));
+        EXPECT_EQ(asked, 1) << name;
+        EXPECT_TRUE(fs::exists(folder_ / name));
+    }
+}
+
 TEST_F(ExportTest, AFolderThatIsAFileIsRefusedByName) {
     const ScenePtr scene = fixtures::cubeScene();
     std::ofstream(folder_ / "file") << "not a folder";
