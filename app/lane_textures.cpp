@@ -10,8 +10,19 @@ namespace lodestone {
 
 namespace {
 
+// Pixels that are someone else's.
+struct PixelsView {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    const std::uint8_t* rgba = nullptr; // [4 * width * height]
+};
+
+PixelsView viewOf(const ImagePreview& preview) {
+    return {preview.width, preview.height, preview.rgba.data()};
+}
+
 // Means of two by two pixels; a last odd row or column is left out.
-ImagePreview halved(const ImagePreview& from) {
+ImagePreview halved(const PixelsView& from) {
     ImagePreview half;
     half.width = std::max(1u, from.width / 2);
     half.height = std::max(1u, from.height / 2);
@@ -36,19 +47,26 @@ struct Shrunk {
     std::uint32_t width = 0; // of the image itself
 };
 
+// Halved right out of the decoder's pixels: those of a large image are never held twice.
 Shrunk shrunk(const Image& image, std::uint32_t max_side_px) {
-    const DecodedImage decoded = decodeImage(image, std::numeric_limits<int>::max());
+    DecodedImage decoded = decodeImage(image, std::numeric_limits<int>::max());
     Shrunk result;
     if (!decoded.rgba)
         return result;
+    const PixelsView whole{static_cast<std::uint32_t>(decoded.width),
+                           static_cast<std::uint32_t>(decoded.height),
+                           decoded.rgba.get()};
+    result.width = whole.width;
     ImagePreview& preview = result.preview;
-    preview.width = static_cast<std::uint32_t>(decoded.width);
-    preview.height = static_cast<std::uint32_t>(decoded.height);
-    preview.rgba.assign(decoded.rgba.get(),
-                        decoded.rgba.get() + std::size_t{4} * preview.width * preview.height);
-    result.width = preview.width;
+    if (std::max(whole.width, whole.height) > max_side_px)
+        preview = halved(whole);
+    else
+        preview = {whole.width,
+                   whole.height,
+                   {whole.rgba, whole.rgba + std::size_t{4} * whole.width * whole.height}};
+    decoded.rgba.reset();
     while (std::max(preview.width, preview.height) > max_side_px)
-        preview = halved(preview);
+        preview = halved(viewOf(preview));
     return result;
 }
 

@@ -9,8 +9,9 @@ namespace lodestone {
 
 class PictureTexture {
 public:
-    // Row 0 of the texture is the bottom of the picture, as with View. Nothing for no pixels.
-    void upload(const Pixels& pixels);
+    // rgba: 4 * width_px * height_px, top row first; row 0 of the texture is the bottom of the
+    // picture, as with View. Nothing for no pixels.
+    void upload(std::span<const std::uint8_t> rgba, const ViewSize& size);
 
     TextureHandle texture() const { return texture_.name(); } // 0 before the first upload
 

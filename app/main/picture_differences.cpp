@@ -61,7 +61,10 @@ void PictureDifferences::collect(Session& session) {
     Entry& entry = entries_[task_->lane];
     entry.made_of = task_->source; // failed ones are not tried again
     if (failure.empty()) {
-        entry.texture.upload(task_->difference);
+        const Pixels& difference = task_->difference;
+        entry.texture.upload(
+            difference.rgba,
+            {static_cast<int>(difference.width), static_cast<int>(difference.height)});
         session.setFlip(task_->lane, task_->flip);
     } else {
         session.reportError(failure);

@@ -10,11 +10,8 @@ TextureHandle PreviewTextures::of(const LaneTexturesPtr& owner, const ImagePrevi
     entry.used = true;
     if (fresh) {
         entry.owner = owner;
-        Pixels pixels;
-        pixels.width = preview.width;
-        pixels.height = preview.height;
-        pixels.rgba = preview.rgba;
-        entry.texture.upload(pixels);
+        entry.texture.upload(preview.rgba,
+                             {static_cast<int>(preview.width), static_cast<int>(preview.height)});
     }
     return entry.texture.texture();
 }
