@@ -30,6 +30,8 @@ std::uint32_t shadeFeature(Shading shading) {
         return kShadeMatcap;
     case Shading::ByLodState:
         return kShadeSubmesh;
+    case Shading::ByTexels:
+        return kShadeValue | kShadeUv;
     case Shading::ByValue:
         return kShadeValue;
     case Shading::Lit:
@@ -48,7 +50,7 @@ std::uint32_t itemFeatures(const DrawItem& item, const GpuSceneState& scene, Sha
     if (shading == Shading::Flat)
         features &= ~kUnlit;
     const bool uses_alpha = (features & (kAlphaMask | kAlphaBlend)) != 0;
-    if (!shows_base && !uses_alpha)
+    if (!shows_base && !uses_alpha && shading != Shading::ByTexels)
         features &= ~kBaseMap;
     if (shading != Shading::Lit || (features & kUnlit) != 0)
         features &= ~(kAnyMap & ~kBaseMap);
@@ -332,14 +334,7 @@ public:
                 ++cursor.item;
         }
         cursor.finished = true;
-        if (Result<void> drawn = drawSorted(sorted); !drawn)
-            return drawn;
-        if (input_.marked_scene == nullptr)
-            if (Result<void> marked = drawHighlighted(); !marked)
-                return marked;
-        if (input_.options.grid)
-            drawGrid();
-        return {};
+        return drawSorted(sorted);
     }
 
     // Over the surfaces that are there already.
@@ -350,6 +345,19 @@ public:
                     if (Result<void> drawn = drawHighlighted(item, highlight.instance); !drawn)
                         return drawn;
         return {};
+    }
+
+    void drawGrid() const {
+        glUseProgram(scene_.renderer->gridProgram().name());
+        glDisable(GL_CULL_FACE);
+        glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+        glDisable(GL_SAMPLE_ALPHA_TO_ONE);
+        glEnable(GL_BLEND);
+        glDepthMask(GL_FALSE);
+        glEnable(GL_DEPTH_CLAMP); // it reaches beyond the planes that enclose the scene
+        glBindVertexArray(scene_.renderer->emptyVertexArray());
+        glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+        glDisable(GL_DEPTH_CLAMP);
     }
 
     const DrawTotals& totals() const { return totals_; }
@@ -430,19 +438,6 @@ private:
         return place < item.kept_instances ? place : kNone;
     }
 
-    void drawGrid() const {
-        glUseProgram(scene_.renderer->gridProgram().name());
-        glDisable(GL_CULL_FACE);
-        glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
-        glDisable(GL_SAMPLE_ALPHA_TO_ONE);
-        glEnable(GL_BLEND);
-        glDepthMask(GL_FALSE);
-        glEnable(GL_DEPTH_CLAMP); // it reaches beyond the planes that enclose the scene
-        glBindVertexArray(scene_.renderer->emptyVertexArray());
-        glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-        glDisable(GL_DEPTH_CLAMP);
-    }
-
     const View::Input& input_;
     const GpuSceneState& scene_;
     ItemBinder binder_;
@@ -498,13 +493,29 @@ Result<DrawTotals> drawLod(const View::Input& input,
     setFixedState();
     useFrame(*scene.renderer, frameBlock(input, antialiasing));
     ItemDrawer drawer(input, antialiasing);
-    Result<void> drawn = drawer.drawFrom(cursor, most_triangles);
-    if (drawn && cursor.finished && input.marked_scene != nullptr)
-        drawn = drawMarks(input, antialiasing);
+    const Result<void> drawn = drawer.drawFrom(cursor, most_triangles);
     resetState();
     if (!drawn)
         return tl::unexpected(drawn.error());
     return drawer.totals();
+}
+
+Result<void> drawOver(const View::Input& input, const Antialiasing& antialiasing) {
+    const bool here = input.marked_scene == nullptr && !input.options.highlighted.empty();
+    if (!here && input.marked_scene == nullptr && !input.options.grid)
+        return {};
+    setFixedState();
+    useFrame(*input.scene->state().renderer, frameBlock(input, antialiasing));
+    ItemDrawer drawer(input, antialiasing);
+    Result<void> drawn;
+    if (here)
+        drawn = drawer.drawHighlighted();
+    if (drawn && input.options.grid)
+        drawer.drawGrid();
+    if (drawn && input.marked_scene != nullptr)
+        drawn = drawMarks(input, antialiasing);
+    resetState();
+    return drawn;
 }
 
 } // namespace lodestone

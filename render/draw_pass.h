@@ -30,12 +30,16 @@ struct DrawCursor {
     Culling* culling = nullptr; // prepared for the picture; null: every instance is drawn
 };
 
-// Draws from the cursor on and moves it. Stops once about most_triangles are drawn, instances
-// counted; transparent instances come last and at once.
+// Draws surfaces from the cursor on and moves it. Stops once about most_triangles are drawn,
+// instances counted; transparent instances come last and at once.
 // Errors: Failed for a shader that does not compile.
 Result<DrawTotals> drawLod(const View::Input& input,
                            const Antialiasing& antialiasing,
                            DrawCursor& cursor,
                            std::uint64_t most_triangles);
+
+// Draws what lies over the surfaces once all are there: highlights, then the floor's grid.
+// Errors: as drawLod().
+Result<void> drawOver(const View::Input& input, const Antialiasing& antialiasing);
 
 } // namespace lodestone

@@ -203,6 +203,8 @@ Result<DrawTotals> ViewState::render(const View::Input& input) {
     if (hasPicture(input)) {
         culling_.prepare(input);
         totals = drawLod(input, antialiasing_, cursor, kEveryTriangle);
+        if (const Result<void> over = drawOver(input, antialiasing_); totals && !over)
+            totals = tl::unexpected(over.error());
     }
     endPicture(input);
     return totals;
@@ -229,7 +231,12 @@ ViewState::drawSlices(const View::Input& input, DrawCursor& cursor, double budge
         pace.drew(slice->triangles, now_ms - spent_ms);
         spent_ms = now_ms;
     } while (!cursor.finished && spent_ms + kShortestSliceMs < budget_ms);
+    Result<void> over;
+    if (cursor.finished) // beside the pace, which is that of surfaces
+        over = drawOver(input, antialiasing_);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    if (!over)
+        return tl::unexpected(over.error());
     return all;
 }
 
