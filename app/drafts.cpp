@@ -8,7 +8,6 @@ namespace lodestone {
 
 namespace {
 
-constexpr double kQuickMs = 25.0; // what a frame has for pictures: needs no draft
 constexpr double kDraftMs = 12.0; // what a draft may cost: three lanes in 36 ms
 constexpr double kFewestTriangles = 500.0;
 
@@ -39,7 +38,7 @@ std::shared_ptr<const Lod> Drafts::draftOf(const Document& document, const Lane&
         return nullptr;
     Entry& entry = entries_[lane.id];
     const double cost_ms = expectedCost(entry, lane);
-    if (cost_ms <= kQuickMs)
+    if (cost_ms <= kPicturesMs)
         return nullptr;
     LodSourcePtr source = sourceFor(document, lane);
     if (!source)

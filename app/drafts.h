@@ -9,6 +9,9 @@ namespace lodestone {
 
 class Drafts {
 public:
+    // What a frame has for pictures; a LOD that costs no more needs no draft.
+    static constexpr double kPicturesMs = 25.0;
+
     // ms_per_triangle: guess for lanes that were never drawn.
     explicit Drafts(double ms_per_triangle) : ms_per_triangle_(ms_per_triangle) {}
 

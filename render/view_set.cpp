@@ -161,6 +161,11 @@ void ViewSet::forgetUnwanted(std::span<const Wanted> wanted) {
                    lane.kept_scene.get() == entry.first;
         });
     });
+    for (auto& [key, item] : items_)
+        if (!scenes_.contains(item.scene)) {
+            item.scene = nullptr; // another may come to lie where it lay
+            item.complete = false;
+        }
     if (marks_.lod && std::ranges::find(wanted, marks_.lod, &Wanted::marked_lod) == wanted.end())
         marks_ = {};
 }
@@ -297,20 +302,21 @@ Result<Pixels> ViewSet::readPixels(std::uint32_t key) const {
     return found->second.view.readPixels();
 }
 
-std::optional<Picked> ViewSet::pick(std::uint32_t key, const glm::dvec2& point) const {
+const Scene* ViewSet::pickedScene(std::uint32_t key) const {
     const auto item = items_.find(key);
-    if (item == items_.end() || !item->second.drawn)
+    return item == items_.end() || !item->second.drawn ? nullptr : item->second.scene;
+}
+
+std::optional<Picked> ViewSet::pick(std::uint32_t key, const glm::dvec2& point) const {
+    if (pickedScene(key) == nullptr)
         return std::nullopt;
-    if (!scenes_.contains(item->second.scene))
-        return std::nullopt;
-    return lodestone::pick(inputOf(item->second), point);
+    return lodestone::pick(inputOf(items_.at(key)), point);
 }
 
 std::vector<Highlight> ViewSet::pickBox(std::uint32_t key, const PickBox& box) const {
-    const auto item = items_.find(key);
-    if (item == items_.end() || !item->second.drawn || !scenes_.contains(item->second.scene))
+    if (pickedScene(key) == nullptr)
         return {};
-    return lodestone::pickBox(inputOf(item->second), box);
+    return lodestone::pickBox(inputOf(items_.at(key)), box);
 }
 
 } // namespace lodestone

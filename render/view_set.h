@@ -75,6 +75,9 @@ public:
     // Of a lane's last complete picture. Errors: as measure().
     Result<Pixels> readPixels(std::uint32_t key) const;
 
+    // Of what was last drawn for a lane: whose submeshes and instances pick() names. null: nothing.
+    const Scene* pickedScene(std::uint32_t key) const;
+
     // What was last drawn under a point of a lane's picture (see pick.h). nullopt: nothing.
     std::optional<Picked> pick(std::uint32_t key, const glm::dvec2& point) const;
     // What of it is in a box (see pick_box.h).

@@ -85,6 +85,27 @@ TEST_F(ViewSetTest, TheLastPictureStaysWhileALargeLodArrives) {
     EXPECT_TRUE(there->front().drew && !there->front().stale);
 }
 
+TEST_F(ViewSetTest, PicksAreOfTheSceneThatIsDrawnWhileAnotherArrives) {
+    ViewSet views(*renderer_);
+    const auto chair = generateScene("chair", 1);
+    ASSERT_TRUE(chair);
+    const auto chair_lod = std::make_shared<const Lod>(fullLod(**chair));
+    std::vector<ViewSet::Wanted> wanted{{1, *chair, chair_lod, nullptr, kSize, {}}};
+    ASSERT_TRUE(arrive(views, wanted));
+    EXPECT_EQ(views.pickedScene(1), chair->get());
+    EXPECT_EQ(views.pickedScene(2), nullptr) << "no such lane";
+    wanted = {{1, flat_, full_, nullptr, kSize, {}}};
+    wanted[0].kept_scene = *chair;
+    ASSERT_TRUE(views.draw(wanted, camera_, {}, 1e9)->front().on_its_way);
+    EXPECT_EQ(views.pickedScene(1), chair->get());
+    wanted[0].kept_scene = nullptr;
+    ASSERT_TRUE(views.draw(wanted, camera_, {}, 1e9)->front().on_its_way);
+    EXPECT_EQ(views.pickedScene(1), nullptr) << "gone from the GPU";
+    EXPECT_FALSE(views.pick(1, {0.5, 0.5}));
+    ASSERT_TRUE(arrive(views, wanted));
+    EXPECT_EQ(views.pickedScene(1), flat_.get());
+}
+
 TEST_F(ViewSetTest, ALaneThatGoesWhileItsSceneArrivesIsForgotten) {
     ViewSet views(*renderer_);
     const std::vector<ViewSet::Wanted> wanted{{1, flat_, full_, nullptr, kSize, {}}};
