@@ -280,7 +280,7 @@ void LaneWorker::commit(Document& document, FinishedJob& finished) {
         return;
     }
     if (auto* const read_out = std::get_if<ReadOut>(&*finished.result)) {
-        commitReadOut(document, *lane, work, std::move(*read_out));
+        commitReadOut(document, *lane, work, std::move(*read_out), LodPlace::AtPosition);
         return;
     }
     auto& prepared = std::get<PreparedSource>(*finished.result);
@@ -389,9 +389,7 @@ bool LaneWorker::slide(const Document& document, Lane& lane, Work& work, const S
     between.predicted_bytes = wanted.bytes->bytes(wanted.source->shapeAt(between.lod->position));
     between.error_estimate = wanted.source->errorAt(between.lod->position);
     work.reading = wanted;
-    work.slid = true; // its position may be that of the LOD shown: it is another all the same
-    commitReadOut(document, lane, work, std::move(between));
-    work.slid = true;
+    commitReadOut(document, lane, work, std::move(between), LodPlace::Between);
     return true;
 }
 
@@ -402,7 +400,7 @@ bool LaneWorker::show(const Document& document, Lane& lane, Work& work, Shown wa
     const Lod* const previous = shares ? lane.status.lod.get() : nullptr;
     ReadOut read_out = readOut(wanted, previous, {});
     work.reading = std::move(wanted);
-    commitReadOut(document, lane, work, std::move(read_out));
+    commitReadOut(document, lane, work, std::move(read_out), LodPlace::AtPosition);
     return true;
 }
 
@@ -427,11 +425,14 @@ bool LaneWorker::showOneShot(Lane& lane, Work& work, Shown wanted) {
     return refreshBuilding(lane, work.job);
 }
 
-void LaneWorker::commitReadOut(const Document& document, Lane& lane, Work& work, ReadOut read_out) {
+void LaneWorker::commitReadOut(
+    const Document& document, Lane& lane, Work& work, ReadOut read_out, LodPlace place) {
     LaneStatus& status = lane.status;
     const LodSourcePtr& source = work.reading->source;
     const bool same_source = work.shown.source == source;
-    if (std::exchange(work.slid, false) || !same_source || !status.lod ||
+    // Between two positions it may name that of the LOD shown: it is another all the same.
+    const bool was_between = std::exchange(work.slid, place == LodPlace::Between);
+    if (work.slid || was_between || !same_source || !status.lod ||
         status.lod->position != read_out.lod->position) {
         jobs_.cancel(lane.id, JobKind::Measure);
         status.measuring = false;

@@ -71,6 +71,9 @@ private:
         bool slid = false; // the LOD shown is none of the source's, but between two
     };
 
+    // Where a LOD lies in its source's sequence: at one of its positions, or between two.
+    enum class LodPlace : std::uint8_t { AtPosition, Between };
+
     void commitPrediction(Document& document, FinishedJob& finished);
     void trimCaches(const Document& document);
     void forgetGoneLanes(const Document& document);
@@ -97,7 +100,8 @@ private:
     bool showOneShot(Lane& lane, Work& work, Shown wanted);
     // Any thread. previous: shown of this source, or nullptr. To be dropped where asked to stop.
     static ReadOut readOut(const Shown& wanted, const Lod* previous, const JobContext& job);
-    void commitReadOut(const Document& document, Lane& lane, Work& work, ReadOut read_out);
+    void commitReadOut(
+        const Document& document, Lane& lane, Work& work, ReadOut read_out, LodPlace place);
     const Work* buildingElsewhere(LaneId lane, const BuildKey& key) const;
 
     JobQueue& jobs_;
