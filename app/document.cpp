@@ -1,5 +1,7 @@
 #include "app/document.h"
 
+#include "app/scene_texels.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -69,6 +71,7 @@ LoadedScene describeScene(ScenePtr scene, std::filesystem::path path) {
     LoadedScene loaded;
     loaded.counts = countScene(*scene);
     loaded.bounds = robustWorldBounds(*scene);
+    loaded.texels_per_unit = texelsPerUnit(*scene);
     loaded.scene = std::move(scene);
     loaded.path = std::move(path);
     return loaded;
@@ -89,6 +92,7 @@ void resetDocument(Document& document, LoadedScene loaded) {
     document.path = std::move(loaded.path);
     document.counts = loaded.counts;
     document.bounds = loaded.bounds;
+    document.texels_per_unit = loaded.texels_per_unit;
     document.load_state = LoadState::Loaded;
     document.lanes.clear();
     document.master = Target{Target::Kind::Ratio, 0.2};

@@ -42,8 +42,9 @@ struct Document {
     ScenePtr scene;             // the original; null: nothing open
     std::filesystem::path path; // empty for a sample
     LoadState load_state = LoadState::Empty;
-    SceneCounts counts; // of `scene`
-    Bounds bounds;      // robust world bounds of `scene`
+    SceneCounts counts;           // of `scene`
+    Bounds bounds;                // robust world bounds of `scene`
+    double texels_per_unit = 0.0; // mean over the surface of `scene`; 0: it has no textures
 
     std::vector<Lane> lanes; // in display order
     LaneId active_lane = kNoLane;
@@ -91,9 +92,10 @@ struct LoadedScene {
     std::filesystem::path path; // empty for a sample
     SceneCounts counts;
     Bounds bounds;
+    double texels_per_unit = 0.0; // see Document
 };
 
-// Counts and bounds of a scene. Any thread; O(instanced vertices).
+// Counts, bounds and texels of a scene. Any thread; O(instanced vertices).
 LoadedScene describeScene(ScenePtr scene, std::filesystem::path path);
 
 // Makes `loaded` the open document: lanes Original, IAS and Quadric (those that exist) at 20 %,

@@ -9,7 +9,7 @@ namespace lodestone {
 namespace {
 
 constexpr std::array<std::string_view, kShadingModes> kShadingNames = {
-    "lit", "clay", "normals", "flat", "uv", "submesh", "instance", "matcap", "lod"};
+    "lit", "clay", "normals", "flat", "uv", "submesh", "instance", "matcap", "lod", "texels"};
 constexpr std::array<std::string_view, 5> kCompareNames = {
     "grid", "split", "flicker", "heat map", "difference"};
 

@@ -31,8 +31,10 @@ enum class ShadingMode : std::uint8_t {
     Instance,
     Matcap,
     LodState,
+    Texels,
 };
-constexpr std::size_t kShadingModes = 9;
+constexpr std::size_t kShadingModes = 10;
+constexpr double kTexelSpan = 64.0; // from the first to the last colour of ShadingMode::Texels
 
 std::string_view shadingName(ShadingMode shading);                 // "lit", "clay", ...
 std::optional<ShadingMode> shadingFromName(std::string_view name); // nullopt if unknown

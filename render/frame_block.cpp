@@ -29,6 +29,14 @@ OrbitCamera reaching(OrbitCamera camera, const Bounds& reach) {
     return camera;
 }
 
+// In the scene's units, which texels are counted along.
+float valueFull(const View::Input& input) {
+    const float full = input.options.value_full;
+    if (input.options.shading != Shading::ByTexels)
+        return full;
+    return full * static_cast<float>(input.scene->state().frame.radius);
+}
+
 } // namespace
 
 FrameBlock frameBlock(const View::Input& input, const Antialiasing& antialiasing) {
@@ -61,10 +69,11 @@ FrameBlock frameBlock(const View::Input& input, const Antialiasing& antialiasing
     block.highlight_color = glm::vec4(input.options.highlight_srgb, 0.55f);
     const glm::vec3 luma(0.2126f, 0.7152f, 0.0722f);
     const float brightness = glm::dot(input.options.background_srgb, luma);
-    block.display = glm::vec4(1.0f / std::max(input.options.shininess, 1e-3f),
-                              1.0f / std::max(input.options.value_full, 1e-30f),
-                              brightness < 0.4f ? 1.0f : 0.0f,
-                              0.0f);
+    block.display = glm::vec4(
+        1.0f / std::max(input.options.shininess, 1e-3f),
+        1.0f / std::max(valueFull(input), 1e-30f),
+        brightness < 0.4f ? 1.0f : 0.0f,
+        input.options.value_span > 1.0f ? 1.0f / std::log2(input.options.value_span) : 0.0f);
     block.floor = floorOf(input.scene->state());
     for (std::size_t i = 0; i < block.value_colors.size(); ++i)
         block.value_colors[i] = glm::vec4(input.options.value_colors[i], 1.0f);

@@ -23,6 +23,7 @@ enum class Shading : std::uint8_t {
     ByInstance, // one colour for each instance
     Matcap,     // a studio that turns with the camera, for shape
     ByLodState, // value_colors by the share of its triangles that a submesh has lost
+    ByTexels,   // value_colors by texels of the base colour a world unit; grey without a texture
     ByValue,    // value_colors by kVertexValueSemantic; grey where there is none
 };
 
@@ -52,7 +53,9 @@ struct ViewOptions {
     bool grid = false;                       // floor under the scene's bounds
     std::array<glm::vec3, 9> value_colors{}; // sRGB, evenly spaced from 0 to 1
     float value_full = 1.0f;                 // > 0; the value that has the last colour
-    std::vector<Highlight> highlighted;      // what the scene does not have is ignored
+    // > 1: a logarithmic scale, value_full / value_span has the first colour. Else linear from 0.
+    float value_span = 0.0f;
+    std::vector<Highlight> highlighted; // what the scene does not have is ignored
     glm::vec3 highlight_srgb{0.30f, 0.76f, 0.63f};
     Moment moment; // of the scene's animations; GpuScene::setMoment() first
     // 1: hard edges. Else MSAA, clamped to what the GPU has; software renderers, which are slow at

@@ -42,7 +42,21 @@ void decode(std::span<const unsigned char> bytes, Coder coder, DecodedImage& dec
                         stbi_image_free};
 }
 
+std::span<const unsigned char> bytesOf(const Image& image) {
+    if (!image.bytes || image.bytes->size() > std::size_t(std::numeric_limits<int>::max()))
+        return {};
+    return {reinterpret_cast<const unsigned char*>(image.bytes->data()), image.bytes->size()};
+}
+
 } // namespace
+
+glm::ivec2 imageSize(const Image& image) {
+    DecodedImage decoded;
+    const std::span<const unsigned char> bytes = bytesOf(image);
+    if (bytes.empty() || coderOf(bytes, decoded) == Coder::None)
+        return {0, 0};
+    return {decoded.width, decoded.height};
+}
 
 DecodedImage decodeImage(const Image& image, int max_size_px) {
     DecodedImage decoded;
@@ -54,8 +68,7 @@ DecodedImage decodeImage(const Image& image, int max_size_px) {
         decoded.fault = "is larger than 2 GiB";
         return decoded;
     }
-    const std::span bytes(reinterpret_cast<const unsigned char*>(image.bytes->data()),
-                          image.bytes->size());
+    const std::span<const unsigned char> bytes = bytesOf(image);
     const Coder coder = coderOf(bytes, decoded);
     if (coder == Coder::None) {
         const std::string type = image.mime_type.empty() ? "its format" : image.mime_type;

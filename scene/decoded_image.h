@@ -17,6 +17,10 @@ struct DecodedImage {
 // max_size_px: of a side. Any thread.
 DecodedImage decodeImage(const Image& image, int max_size_px);
 
+// Width and height as the image's header has them, of those that decodeImage() knows; else 0. Any
+// thread.
+glm::ivec2 imageSize(const Image& image);
+
 // "image 3 'bark'": how messages name an image of a scene. index in range.
 std::string imageLabel(const Scene& scene, std::uint32_t index);
 

@@ -9,7 +9,8 @@ layout(std140) uniform Frame {
     vec4 viewport;   // xy: pixels; z: exposure; w: 1 when alpha becomes coverage
     vec4 wire_color; // sRGB
     vec4 highlight_color; // sRGB, alpha
-    vec4 display;         // x: factor of the roughness; y: 1 / full value; z: 1 light grid lines
+    vec4 display;         // x: factor of the roughness; y: 1 / full value; z: 1 light grid lines;
+                          // w: 1 / octaves of a logarithmic scale of values, 0: linear
     vec4 floor_plane;     // x: height; y: lines a scene unit; zw: the first line
     vec4 value_colors[9]; // sRGB
 } frame;
@@ -23,7 +24,8 @@ layout(std140) uniform Material {
 } material;
 
 // Members of the block that travels from stage to stage; empty macros are absent members.
-#if !defined(HAS_NORMAL) || defined(FACETS) || defined(NORMAL_MAP)
+#if !defined(HAS_NORMAL) || defined(FACETS) || defined(NORMAL_MAP) || \
+    (defined(SHADE_VALUE) && defined(SHADE_UV))
 #define HAS_POSITION
 #define SURFACE_POSITION vec3 position;
 #else

@@ -239,10 +239,27 @@ vec3 matcapColor(vec3 n) {
 #endif
 
 #ifdef SHADE_VALUE
+#if defined(SHADE_UV) && defined(BASE_MAP)
+// Texels of the base colour along a length of the surface.
+float texelDensity() {
+    vec2 texel = textureUv(0) * vec2(textureSize(base_color_map, 0));
+    vec2 right = dFdx(texel);
+    vec2 up = dFdy(texel);
+    float area = length(cross(dFdx(surface.position), dFdy(surface.position)));
+    return sqrt(abs(right.x * up.y - right.y * up.x) / max(area, 1e-30));
+}
+#define VALUE texelDensity()
+#elif defined(HAS_VALUE)
+#define VALUE surface.value
+#endif
+
 // Lit just enough that the shape can be seen and colours can be read off the legend.
 vec3 valueColor(vec3 n) {
-#ifdef HAS_VALUE
-    float place = clamp(surface.value * frame.display.y, 0.0, 1.0) * 8.0;
+#ifdef VALUE
+    float of_full = VALUE * frame.display.y;
+    float place = frame.display.w > 0.0 ? log2(max(of_full, 1e-30)) * frame.display.w + 1.0
+                                        : of_full;
+    place = clamp(place, 0.0, 1.0) * 8.0;
     int lower = int(min(place, 7.0));
     vec3 color = mix(frame.value_colors[lower].rgb, frame.value_colors[lower + 1].rgb,
                      place - float(lower));

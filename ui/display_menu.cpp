@@ -29,6 +29,11 @@ constexpr std::array<ShadingItem, kShadingModes> kShadings = {{
      nullptr,
      "How far each submesh is simplified: grey is untouched, the last colour has lost all but a "
      "thousandth of its triangles."},
+    {ShadingMode::Texels,
+     "Texel density",
+     "T",
+     "How many texels of the base colour lie along a unit of the surface; what has no texture is "
+     "grey."},
 }};
 
 constexpr std::array<std::string_view, 4> kBackdrops = {"Dark", "Gradient", "Grey", "Light"};

@@ -25,7 +25,7 @@ constexpr double kShineStep = 1.25;
 constexpr DragKey kAnimationDrag = 0x414e494d45ull; // a whole animation is one undo step
 constexpr DragKey kStepDrag = 0x5354455053ull; // collapsing while a key is held is one undo step
 
-constexpr std::array<Shortcut, 38> kShortcuts = {{
+constexpr std::array<Shortcut, 39> kShortcuts = {{
     {"Left drag", "orbit (also Alt+left, middle)"},
     {"Right drag", "pan (also Shift+middle)"},
     {"Wheel", "zoom"},
@@ -39,6 +39,7 @@ constexpr std::array<Shortcut, 38> kShortcuts = {{
     {"Tab", "hide or show the panels"},
     {"Space", "grid, or two lanes split by a divider"},
     {"N", "normals"},
+    {"T", "texel density"},
     {"L", "wireframe"},
     {"S / Shift+S", "smaller / larger"},
     {"Z / Shift+Z", "further / nearer"},
@@ -116,11 +117,12 @@ void cameraKeys(const Ui& ui, const CameraState& camera) {
 }
 
 void viewKeys(const Ui& ui, DisplayOptions view, WindowState& state) {
-    if (pressed('N')) {
-        view.shading =
-            view.shading == ShadingMode::Normals ? ShadingMode::Lit : ShadingMode::Normals;
-        ui.push(SetView{view});
-    }
+    for (const auto& [key, shading] :
+         {std::pair{'N', ShadingMode::Normals}, std::pair{'T', ShadingMode::Texels}})
+        if (pressed(key)) {
+            view.shading = view.shading == shading ? ShadingMode::Lit : shading;
+            ui.push(SetView{view});
+        }
     if (pressed(' ')) {
         view.compare = view.compare == CompareMode::Split ? CompareMode::Grid : CompareMode::Split;
         ui.push(SetView{view});

@@ -84,8 +84,7 @@ public:
             View::Input input;
             input.scene = &uploaded->scene;
             input.lod = &uploaded->lod;
-            input.options.shading = shadingFor(request.shading);
-            input.options.value_colors = valueColors(ColorMap::Viridis);
+            input.options = shadedOptions(request.shading, *request.columns.front().scene);
             input.options.background = Background::Transparent; // drawPicture puts it under
             input.size = {static_cast<int>(request.width_px), static_cast<int>(request.height_px)};
             for (std::size_t v = 0; v < cameras.size(); ++v) {
@@ -177,8 +176,7 @@ private:
         input.scene = &uploaded->scene;
         input.lod = &uploaded->lod;
         input.camera = *camera;
-        input.options.shading = shadingFor(request.shading);
-        input.options.value_colors = valueColors(ColorMap::Viridis);
+        input.options = shadedOptions(request.shading, *request.columns.front().scene);
         input.options.wireframe = request.wireframe;
         input.options.moment = request.moment;
         input.size = {static_cast<int>(request.width_px), static_cast<int>(request.height_px)};

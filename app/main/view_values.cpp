@@ -1,5 +1,7 @@
 #include "app/main/view_values.h"
 
+#include "app/scene_texels.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -32,6 +34,8 @@ Shading shadingFor(ShadingMode mode) {
         return Shading::Matcap;
     case ShadingMode::LodState:
         return Shading::ByLodState;
+    case ShadingMode::Texels:
+        return Shading::ByTexels;
     }
     return Shading::Lit;
 }
@@ -78,7 +82,25 @@ std::array<glm::vec3, 9> valueColors(ColorMap map) {
     return colors;
 }
 
-ViewOptions viewOptions(const DisplayOptions& display, double value_full) {
+namespace {
+
+void scaleTexels(ViewOptions& options, double texels_full) {
+    options.value_full = static_cast<float>(texels_full);
+    options.value_span = static_cast<float>(kTexelSpan);
+}
+
+} // namespace
+
+ViewOptions shadedOptions(ShadingMode mode, const Scene& scene) {
+    ViewOptions options;
+    options.shading = shadingFor(mode);
+    options.value_colors = valueColors(ColorMap::Viridis);
+    if (mode == ShadingMode::Texels)
+        scaleTexels(options, texelsFull(texelsPerUnit(scene)));
+    return options;
+}
+
+ViewOptions viewOptions(const DisplayOptions& display, const FullValues& full) {
     ViewOptions options;
     options.shading = shadingFor(display.shading);
     options.wireframe = display.wireframe;
@@ -91,7 +113,9 @@ ViewOptions viewOptions(const DisplayOptions& display, double value_full) {
     options.value_colors = valueColors(display.colors);
     if (display.compare == CompareMode::HeatMap) {
         options.shading = Shading::ByValue;
-        options.value_full = static_cast<float>(value_full);
+        options.value_full = static_cast<float>(full.error);
+    } else if (display.shading == ShadingMode::Texels) {
+        scaleTexels(options, full.texels);
     }
     options.light_azimuth_rad = static_cast<float>(-display.light_azimuth_deg * kRadiansPerDegree);
     options.light_elevation_rad =

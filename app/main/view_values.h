@@ -13,7 +13,15 @@ OrbitCamera orbitCamera(const CameraState& state, const Bounds& bounds, double a
 
 std::array<glm::vec3, 9> valueColors(ColorMap map);
 
-// value_full: what the last colour of a heat map stands for.
-ViewOptions viewOptions(const DisplayOptions& display, double value_full);
+// What last colours stand for.
+struct FullValues {
+    double error = 1.0;  // of a heat map
+    double texels = 1.0; // of ShadingMode::Texels
+};
+
+ViewOptions viewOptions(const DisplayOptions& display, const FullValues& full);
+
+// Options that show a scene, or LODs of it, in a mode.
+ViewOptions shadedOptions(ShadingMode mode, const Scene& scene);
 
 } // namespace lodestone

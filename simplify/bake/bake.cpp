@@ -357,7 +357,12 @@ BakedAtlas describeAtlas(const Bake& bake, const BakedGroup& group, const Textur
         if (primitive.material == kNone)
             continue;
         const Material& material = bake.scene.materials[primitive.material];
-        covered.add(*primitive.geometry, material, images, bake.sources[part.submesh].stretch);
+        const TextureRef& texture = material.base_color_texture;
+        if (images.covers(*primitive.geometry, texture))
+            covered.add(*primitive.geometry,
+                        texture,
+                        images.size(texture.image),
+                        bake.sources[part.submesh].stretch);
         if (atlas.original_image == kNone)
             atlas.original_image = material.base_color_texture.image;
     }

@@ -9,19 +9,17 @@ double TexelArea::texelsPerUnit() const {
 }
 
 void TexelArea::add(const Geometry& geometry,
-                    const Material& material,
-                    const TextureImages& images,
+                    const TextureRef& texture,
+                    const glm::dvec2& size_px,
                     double stretch) {
-    const TextureRef& texture = material.base_color_texture;
-    if (!images.covers(geometry, texture))
+    const Attribute* const uv =
+        findAttribute(geometry.attributes, "TEXCOORD_" + std::to_string(texture.texcoord));
+    if (uv == nullptr || uv->components != 2)
         return;
-    const Attribute& uv =
-        *findAttribute(geometry.attributes, "TEXCOORD_" + std::to_string(texture.texcoord));
-    const glm::dvec2 size(images.size(texture.image));
-    const double scale =
-        size.x * size.y * std::abs(glm::determinant(glm::dmat2(glm::dmat3(texture.uv_transform))));
+    const double scale = size_px.x * size_px.y *
+                         std::abs(glm::determinant(glm::dmat2(glm::dmat3(texture.uv_transform))));
     const auto at = [&](std::uint32_t vertex) {
-        return glm::dvec2(attributeValue(uv, vertex, 0), attributeValue(uv, vertex, 1));
+        return glm::dvec2(attributeValue(*uv, vertex, 0), attributeValue(*uv, vertex, 1));
     };
     for (std::size_t i = 0; i + 2 < geometry.indices.size(); i += 3) {
         const std::uint32_t* const corner = &geometry.indices[i];

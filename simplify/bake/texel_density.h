@@ -1,6 +1,6 @@
 #pragma once
 // How fine the texels of a scene's base colour lie on its surface.
-#include "simplify/measure/texture_images.h"
+#include "scene/scene.h"
 
 namespace lodestone {
 
@@ -11,11 +11,11 @@ struct TexelArea {
 
     double texelsPerUnit() const; // 0 if nothing is covered
 
-    // Adds the triangles of a primitive that base colour texels cover. material: the primitive's;
-    // stretch: factor of its instances on lengths. O(triangles).
+    // Adds the triangles of a primitive; nothing without the texture's coordinates. size_px: of
+    // the texture's image; stretch: factor of the primitive's instances on lengths. O(triangles).
     void add(const Geometry& geometry,
-             const Material& material,
-             const TextureImages& images,
+             const TextureRef& texture,
+             const glm::dvec2& size_px,
              double stretch);
 };
 

@@ -1,3 +1,4 @@
+#include "app/scene_texels.h"
 #include "app/session.h"
 #include "app/texture_jobs.h"
 #include "scene/scene_builder.h"
@@ -13,11 +14,11 @@ namespace {
 
 constexpr double kPatience_s = 60.0;
 
-Image checks() {
-    constexpr int kSize = 32;
+Image checks(int width) {
+    constexpr int kHeight = 32;
     std::vector<std::uint8_t> rgb;
-    for (int at = 0; at < kSize * kSize; ++at) {
-        const bool dark = (at / 4 + at / kSize / 4) % 2 == 0;
+    for (int at = 0; at < width * kHeight; ++at) {
+        const bool dark = (at / 4 + at / width / 4) % 2 == 0;
         rgb.insert(rgb.end(), {static_cast<std::uint8_t>(dark ? 200 : 40), 90, 60});
     }
     const auto bytes = std::make_shared<std::vector<std::byte>>();
@@ -26,18 +27,18 @@ Image checks() {
         auto& all = *static_cast<std::vector<std::byte>*>(to);
         all.insert(all.end(), begin, begin + size);
     };
-    stbi_write_png_to_func(append, bytes.get(), kSize, kSize, 3, rgb.data(), 0);
+    stbi_write_png_to_func(append, bytes.get(), width, kHeight, 3, rgb.data(), 0);
     return {"checks", "image/png", {}, bytes};
 }
 
-ScenePtr checkedSphere() {
+ScenePtr checkedSphere(int image_width) {
     const GeometryPtr round = meshes::sphere(60, 64);
     std::vector<float> uv;
     for (const glm::vec3& p : round->positions)
         uv.insert(uv.end(), {0.5f + 0.4f * p.x, 0.5f + 0.4f * p.y});
     SceneBuilder builder("checked");
     Material material;
-    material.base_color_texture.image = builder.addImage(checks());
+    material.base_color_texture.image = builder.addImage(checks(image_width));
     Primitive primitive;
     primitive.material = builder.addMaterial(material);
     primitive.geometry = meshes::withAttribute(*round, "TEXCOORD_0", uv);
@@ -52,12 +53,7 @@ protected:
                  ("lodestone_textures_" + std::to_string(getpid()))),
           session(Session::Options{}) {
         std::filesystem::create_directories(folder);
-        const ScenePtr scene = checkedSphere();
-        const auto written = exportScene(*scene, fullLod(*scene), folder / "checked.glb", {});
-        EXPECT_TRUE(written);
-        send(OpenScene{folder / "checked.glb"});
-        finish();
-        set("atlas", 256.0); // small and quick
+        open(*checkedSphere(32));
     }
 
     ~TextureJobsTest() override { std::filesystem::remove_all(folder); }
@@ -66,6 +62,13 @@ protected:
         CommandQueue queue;
         queue.push(std::move(command));
         session.update(queue);
+    }
+
+    void open(const Scene& scene) {
+        EXPECT_TRUE(exportScene(scene, fullLod(scene), folder / "checked.glb", {}));
+        send(OpenScene{folder / "checked.glb"});
+        finish();
+        set("atlas", 256.0); // small and quick
     }
 
     void finish() { ASSERT_TRUE(session.updateUntilIdle(kPatience_s)); }
@@ -132,6 +135,51 @@ TEST_F(TextureJobsTest, AnExportThatComesFirstTransfersThemItself) {
     finish();
     EXPECT_EQ(std::filesystem::file_size(folder / "early.glb"),
               lane().status.numbers.predicted_bytes);
+}
+
+TEST_F(TextureJobsTest, AnExportThatTransfersCanBeCancelledAndLeavesTheOldFile) {
+    const std::filesystem::path path = folder / "old.glb";
+    send(Export{lane().id, path});
+    finish();
+    const auto bytes_before = std::filesystem::file_size(path);
+    set("texture", 1.0);
+    set("atlas", 2048.0); // not done before the next line
+    send(Export{lane().id, path});
+    send(CancelJob{0});
+    EXPECT_TRUE(session.document().jobs.empty());
+    finish();
+    EXPECT_EQ(std::filesystem::file_size(path), bytes_before);
+    const auto& messages = session.document().messages;
+    EXPECT_TRUE(std::ranges::any_of(messages, [](const Message& message) {
+        return message.text == "Writing old.glb: cancelled";
+    }));
+    const auto files = std::distance(std::filesystem::directory_iterator(folder), {});
+    EXPECT_EQ(files, 2) << "the model and the old file";
+}
+
+TEST_F(TextureJobsTest, PreviewsAreHalvedUntilTheyAreSmall) {
+    open(*checkedSphere(1030));
+    set("texture", 1.0);
+    finish();
+    ASSERT_TRUE(lane().status.textures);
+    const AtlasPreview& preview = lane().status.textures->previews[0];
+    EXPECT_EQ(preview.before_px, 1030u);
+    EXPECT_EQ(preview.before.width, 515u);
+    EXPECT_EQ(preview.before.height, 16u);
+    EXPECT_EQ(preview.before.rgba.size(), 4u * 515 * 16);
+    EXPECT_EQ(preview.before.rgba[1], 90) << "green is the same everywhere";
+    EXPECT_EQ(preview.after.width, preview.after_px) << "small enough as it is";
+}
+
+TEST_F(TextureJobsTest, TexelsOfTheSceneAreTheMeanOverItsInstances) {
+    EXPECT_GT(session.document().texels_per_unit, 0.0);
+    const ScenePtr one = checkedSphere(32);
+    auto two = std::make_shared<Scene>(*one);
+    two->instances.push_back(two->instances[0]);
+    two->instances[1].transform = glm::dmat4(glm::dmat3(3.0)); // nine times the area
+    EXPECT_NEAR(texelsPerUnit(*two), texelsPerUnit(*one) * std::sqrt(2.0 / 10.0), 1e-9);
+    two->materials[0].base_color_texture.image = kNone;
+    EXPECT_EQ(texelsPerUnit(*two), 0.0);
 }
 
 TEST_F(TextureJobsTest, WhileATargetIsDraggedNothingIsTransferredAfterwardsTheNewestIs) {

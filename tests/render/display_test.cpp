@@ -48,6 +48,36 @@ TEST_F(DisplayTest, SurfacesWithoutValuesAreGrey) {
     expectColor(at(draw(), 0.0, 0.0), {82, 82, 82, 255}, 6);
 }
 
+TEST_F(DisplayTest, TexelsAreCountedAlongAWorldUnitOnALogarithmicScale) {
+    Material material = unlit({0.5f, 0.5f, 0.5f, 1.0f});
+    material.base_color_texture.image = 0; // 2 texels over the square's 2 units
+    const auto middleOf = [&](double instance_scale, float uv_scale) {
+        material.base_color_texture.uv_transform[0][0] = uv_scale;
+        material.base_color_texture.uv_transform[1][1] = uv_scale;
+        const auto scene = sceneOf(square(true), material);
+        scene->images.push_back(pngImage(std::vector<std::uint8_t>(16, 200)));
+        scene->instances[0].transform = glm::dmat4(glm::dmat3(instance_scale));
+        scene->instances[0].transform[3] = glm::dvec4(0, 0, 0, 1);
+        load(scene);
+        useGreyColors();
+        input_.options.shading = Shading::ByTexels;
+        input_.options.value_full = 8.0f;
+        input_.options.value_span = 64.0f;
+        return int{at(draw(), 0.1, 0.2)[0]};
+    };
+    EXPECT_NEAR(middleOf(1.0, 1.0f), 128, 3) << "1 texel a unit: the middle of 1/8 to 8";
+    EXPECT_NEAR(middleOf(1.0, 4.0f), 212, 3) << "4: two octaves of six above it";
+    EXPECT_NEAR(middleOf(0.5, 1.0f), 170, 3) << "2: the same texels on half the length";
+    EXPECT_NEAR(middleOf(1.0, 100.0f), 255, 3) << "above the scale";
+}
+
+TEST_F(DisplayTest, SurfacesWithoutATextureHaveNoTexels) {
+    load(sceneOf(square(true), unlit({1.0f, 0.0f, 0.0f, 1.0f})));
+    useGreyColors();
+    input_.options.shading = Shading::ByTexels;
+    expectColor(at(draw(), 0.0, 0.0), {82, 82, 82, 255}, 6);
+}
+
 TEST_F(DisplayTest, AHighlightMarksTheSubmeshOrOneInstance) {
     const auto scene = sceneOf(square(true), unlit({0.0f, 0.0f, 0.0f, 1.0f}));
     scene->instances.resize(2);

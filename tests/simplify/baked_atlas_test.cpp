@@ -94,23 +94,18 @@ TEST(EncodedAtlas, OfLowerQualityIsSmallerAndTheSameOptionsGiveTheSameBytes) {
 }
 
 TEST(TexelDensity, IsTheTextureOverTheLengthItCovers) {
-    const std::vector<std::uint8_t> rgba = noisy();
-    SceneBuilder builder("square");
-    Material material;
-    material.base_color_texture.image =
-        builder.addImage(*encodedAtlas("texture", {rgba, kSide, Channels::Rgb, false}, {}));
-    builder.addMaterial(material);
-    const ScenePtr scene = builder.finish();
-    constexpr std::array<TextureImages::Slot, 1> kSlots{&Material::base_color_texture};
-    const TextureImages images(*scene, kSlots);
+    const TextureRef texture;
+    constexpr glm::dvec2 size_px(kSide, kSide);
     TexelArea once;
-    once.add(square(), scene->materials[0], images, 1.0);
+    once.add(square(), texture, size_px, 1.0);
     EXPECT_NEAR(once.texelsPerUnit(), 32.0, 1e-6);
     TexelArea twice_as_large;
-    twice_as_large.add(square(), scene->materials[0], images, 2.0);
+    twice_as_large.add(square(), texture, size_px, 2.0);
     EXPECT_NEAR(twice_as_large.texelsPerUnit(), 16.0, 1e-6);
     TexelArea uncovered;
-    uncovered.add(square(), Material(), images, 1.0);
+    TextureRef other_coordinates;
+    other_coordinates.texcoord = 5;
+    uncovered.add(square(), other_coordinates, size_px, 1.0);
     EXPECT_EQ(uncovered.texelsPerUnit(), 0.0);
 }
 

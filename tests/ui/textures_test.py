@@ -82,6 +82,24 @@ def test_the_atlas_stands_beside_the_texture_it_was_made_from(_):
         window.wait("closed", lambda: window.state()["dialog"] == 0)
 
 
+def test_t_shows_how_dense_texels_lie_before_and_after_a_transfer(_):
+    with open_model("Duck/Duck.glb") as window:
+        window.key("t")
+        window.wait("the mode", lambda: window.state()["shading"] == "texels")
+        names = [f"View {window.lane_id(name)}" for name in ("original", "ias")]
+        window.wait("a legend and the original's number",
+                    lambda: window.get("widget", f"{names[0]}/legend") and
+                    window.get("widget", f"{names[0]}/number"))
+        assert not window.get("widget", f"{names[1]}/number"), "nobody knows"
+        kept = picture(window, f"{names[1]}/picture")
+        transfer(window)
+        wait_transferred(window)
+        window.wait("the atlas's number", lambda: window.get("widget", f"{names[1]}/number"))
+        assert differing_share(kept, picture(window, f"{names[1]}/picture")) > 0.02
+        window.key("t")
+        window.wait("lit", lambda: window.state()["shading"] == "lit")
+
+
 def test_after_a_drag_the_newest_level_gets_the_textures(_):
     with open_model("Duck/Duck.glb") as window:
         transfer(window)
