@@ -95,13 +95,7 @@ void drawPicture(
     const bool drawn = picture && picture->texture;
     if (drawn)
         list.AddImage(picture->texture, area.position, area.end(), {0, 1}, {1, 0});
-    ImGui::SetCursorScreenPos(area.position);
-    ImGui::InvisibleButton("picture",
-                           {std::max(1.0f, area.size.x), std::max(1.0f, area.size.y)},
-                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
-                               ImGuiButtonFlags_MouseButtonMiddle);
-    ImGui::SetItemAllowOverlap();
-    ui.record("picture");
+    pictureButton(ui, area);
     if (ImGui::IsItemActivated())
         ui.push(SetActiveLane{lane.id});
     pictureGestures(ui, input, state, lane.id, area);

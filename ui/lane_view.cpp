@@ -87,8 +87,9 @@ void drawLaneHeader(
     const std::string_view name = laneName(lane.settings);
     drawText(ui, {x, text_y}, Align::Left, name, {ui.theme.fonts.semibold});
     x += textWidth(ui, name, ui.theme.fonts.semibold) + ui.px(8);
-    const float menu_width = ui.px(26);
-    const float menu_x = area.end().x - menu_width - ui.px(4);
+    const float menu_margin = ui.px(4);
+    const float menu_width = ui.px(kLaneMenuWidth) - menu_margin;
+    const float menu_x = area.end().x - menu_width - menu_margin;
     const float summary_end = drawDistance(ui, lane, {{x, text_y}, {menu_x - x, 0}});
     drawText(ui,
              {x, text_y},
@@ -374,6 +375,16 @@ void cameraGestures(const Ui& ui,
 }
 
 } // namespace
+
+void pictureButton(const Ui& ui, const Area& area) {
+    ImGui::SetCursorScreenPos(area.position);
+    ImGui::InvisibleButton("picture",
+                           {std::max(1.0f, area.size.x), std::max(1.0f, area.size.y)},
+                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
+                               ImGuiButtonFlags_MouseButtonMiddle);
+    ImGui::SetItemAllowOverlap();
+    ui.record("picture");
+}
 
 void pictureGestures(
     const Ui& ui, const PanelInput& input, WindowState& state, LaneId lane, const Area& area) {

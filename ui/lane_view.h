@@ -14,6 +14,8 @@ void drawLaneFooter(const Ui& ui, const Document& document, const Lane& lane, co
 // Over the picture: what the lane is busy with, or why it shows nothing.
 void drawLaneState(
     const Ui& ui, WindowState& state, const Lane& lane, bool draft, const Area& area);
+// Takes the mouse over a picture; what is drawn over it may take it back.
+void pictureButton(const Ui& ui, const Area& area);
 // What the mouse does over the last ImGui item, a picture of the lane. Drags move camera or light;
 // with Ctrl they select what is in a box, with Shift besides what is selected already. A click
 // selects the instance that is there, with Shift or Ctrl it adds it or takes it away; a double

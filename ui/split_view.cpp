@@ -72,13 +72,7 @@ void drawSplitView(const Ui& ui, const PanelInput& input, WindowState& state, co
     float& divider = *ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID("split"), 0.5f);
     drawPart(input, *pair.left, picture, 0.0f, divider);
     drawPart(input, *pair.right, picture, divider, 1.0f);
-    ImGui::SetCursorScreenPos(picture.position);
-    ImGui::InvisibleButton("picture",
-                           picture.size,
-                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
-                               ImGuiButtonFlags_MouseButtonMiddle);
-    ImGui::SetItemAllowOverlap();
-    named.record("picture");
+    pictureButton(named, picture);
     const float mouse_x =
         (state.box_lane == kNoLane ? ImGui::GetIO().MousePos
                                    : ImGui::GetIO().MouseClickedPos[ImGuiMouseButton_Left])
@@ -120,13 +114,7 @@ void drawFlickerView(const Ui& ui, const PanelInput& input, WindowState& state, 
     Ui named = ui;
     named.panel = "Flicker";
     drawPart(input, lane, picture, 0.0f, 1.0f);
-    ImGui::SetCursorScreenPos(picture.position);
-    ImGui::InvisibleButton("picture",
-                           picture.size,
-                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
-                               ImGuiButtonFlags_MouseButtonMiddle);
-    ImGui::SetItemAllowOverlap();
-    named.record("picture");
+    pictureButton(named, picture);
     ui.log.object("flicker", "flicker", "\"lane\":" + std::to_string(lane.id));
     pictureGestures(named, input, state, lane.id, picture);
     const LanePicture* const shown = input.pictureOf(lane.id);

@@ -76,25 +76,6 @@ void setMetrics(ImGuiStyle& style, float scale) {
 
 } // namespace
 
-ImU32 laneColor(std::string_view algorithm_id) {
-    constexpr std::array<std::pair<std::string_view, ImU32>, 10> kLaneColors = {{
-        {"ias", color::kAccent},
-        {"quadric", IM_COL32(0xe3, 0xa4, 0x4d, 0xff)},
-        {"quadric-submesh", IM_COL32(0xd9, 0x8c, 0x6a, 0xff)},
-        {"wild", IM_COL32(0x6a, 0xa9, 0xff, 0xff)},
-        {"vt", IM_COL32(0x66, 0xcc, 0xee, 0xff)},
-        {"fad", IM_COL32(0xee, 0x66, 0x77, 0xff)},
-        {"ivdd", IM_COL32(0xd6, 0xc7, 0x4f, 0xff)},
-        {"ss", IM_COL32(0xe5, 0x8f, 0xc0, 0xff)},
-        {"vtd", IM_COL32(0x8f, 0xc9, 0x6b, 0xff)},
-        {"fass", IM_COL32(0xc6, 0x78, 0xdd, 0xff)},
-    }};
-    for (const auto& [id, packed] : kLaneColors)
-        if (id == algorithm_id)
-            return packed;
-    return IM_COL32(0x9a, 0xa3, 0xaf, 0xff);
-}
-
 Theme applyTheme(float scale, float density) {
     ImGuiStyle& style = ImGui::GetStyle();
     style = ImGuiStyle();

@@ -1,7 +1,6 @@
 #pragma once
 // Colours, fonts and metrics of the window. Everything that has a size goes through Theme::px.
 #include <imgui.h>
-#include <string_view>
 
 namespace lodestone::ui {
 
@@ -25,9 +24,6 @@ constexpr ImU32 kOnAccent = IM_COL32(0x10, 0x24, 0x1e, 0xff);
 constexpr ImU32 kError = IM_COL32(0xe8, 0x6a, 0x6a, 0xff);
 constexpr ImU32 kWarning = IM_COL32(0xe3, 0xa4, 0x4d, 0xff);
 } // namespace color
-
-// The one colour a lane has everywhere: header dot, table, chart. Empty id: the original.
-ImU32 laneColor(std::string_view algorithm_id);
 
 struct Fonts {
     ImFont* regular = nullptr;  // 13 px
