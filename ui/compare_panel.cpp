@@ -14,6 +14,7 @@ namespace {
 
 constexpr float kTitleHeight = 26.0f;
 constexpr float kRowHeight = 29.0f;
+constexpr float kLowestRow = 22.5f;           // where there are many
 constexpr float kWidthOfBothCharts = 1700.0f; // of the panel
 
 struct Column {
@@ -115,10 +116,11 @@ void drawRow(const Ui& ui,
              const PanelInput& input,
              const WindowState& state,
              const Lane& lane,
-             float width) {
+             const ImVec2& size) {
     const ImVec2 begin = ImGui::GetCursorScreenPos();
-    const float height = ui.px(kRowHeight);
-    const ImVec2 end{begin.x + width, begin.y + height};
+    const float width = size.x;
+    const float height = size.y;
+    const ImVec2 end = begin + size;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     ImGui::PushID(static_cast<int>(lane.id));
     if (lane.id == input.document.active_lane)
@@ -146,19 +148,28 @@ void drawRow(const Ui& ui,
     ImGui::SetCursorScreenPos({begin.x, end.y});
 }
 
+// Rows become lower before the table scrolls, and then as many as are seen are seen whole.
+float rowHeight(const Ui& ui, float room, std::size_t lane_count) {
+    const float most = std::floor(room / ui.px(kLowestRow));
+    const float shown = std::max(1.0f, std::min(static_cast<float>(lane_count), most));
+    return std::min(ui.px(kRowHeight), std::floor(room / shown));
+}
+
 void drawTable(const Ui& ui, const PanelInput& input, const WindowState& state, const Area& area) {
     const float top = area.position.y + ui.px(kTitleHeight) + ui.theme.hairline();
-    const float rows = ui.px(kRowHeight) * static_cast<float>(input.document.lanes.size());
-    const bool scrolls = top + rows > area.end().y;
+    const float room = area.end().y - top;
+    const std::size_t lane_count = input.document.lanes.size();
+    const float height = rowHeight(ui, room, lane_count);
+    const bool scrolls = height * static_cast<float>(lane_count) > room;
     const float width = area.size.x - (scrolls ? ImGui::GetStyle().ScrollbarSize : 0.0f);
     drawTitles(ui, area.position, width);
     ImGui::SetCursorScreenPos({area.position.x, top});
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
-    ImGui::BeginChild("rows", {area.size.x, area.end().y - top});
+    ImGui::BeginChild("rows", {area.size.x, scrolls ? std::floor(room / height) * height : room});
     Ui named = ui;
     for (const Lane& lane : input.document.lanes) {
         named.panel = "Lane " + std::to_string(lane.id);
-        drawRow(named, input, state, lane, width);
+        drawRow(named, input, state, lane, {width, height});
     }
     ImGui::EndChild();
     ImGui::PopStyleVar();

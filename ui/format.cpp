@@ -92,7 +92,8 @@ std::string formatMilliseconds(double time_ms) {
 }
 
 std::string formatError(double error_rel_percent) {
-    if (error_rel_percent <= 0.0)
+    constexpr double kSmallestShown = 0.00005;
+    if (error_rel_percent < kSmallestShown)
         return "0";
     if (error_rel_percent < 0.01)
         return decimals(error_rel_percent, 4);

@@ -4,8 +4,10 @@
 #include "ui/widgets.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace lodestone::ui {
 
@@ -53,19 +55,23 @@ double originalBytes(const Document& document) {
     return 0.0;
 }
 
-// Spans all curves, with a margin. False if there is none yet, or nothing that a logarithm shows.
+// Spans all curves and what lanes show, with a margin. False if there is nothing yet, or nothing
+// that a logarithm shows.
 bool fitAxes(const PanelInput& input, const WindowState& state, Axes& axes) {
     double smallest = std::numeric_limits<double>::max();
     double largest = 0.0;
+    const auto include = [&](double value) {
+        if (!std::isfinite(value)) // nobody knows: it stands at the upper edge
+            return;
+        largest = std::max(largest, value);
+        if (value > kSmallest)
+            smallest = std::min(smallest, value);
+    };
     for (const Lane& lane : input.document.lanes) {
-        for (const SizePoint& point : state.curves.of(lane.id)) {
-            const double value = axes.valueOf(point);
-            if (!std::isfinite(value)) // nobody knows: it stands at the upper edge
-                continue;
-            largest = std::max(largest, value);
-            if (value > kSmallest)
-                smallest = std::min(smallest, value);
-        }
+        for (const SizePoint& point : state.curves.of(lane.id))
+            include(axes.valueOf(point));
+        if (lane.status.lod)
+            include(axes.valueOf(lane.status.numbers));
         if (axes.kind == ChartKind::Error && lane.status.distance)
             largest = std::max(largest, lane.status.distance->hausdorff);
     }
@@ -81,9 +87,8 @@ bool fitAxes(const PanelInput& input, const WindowState& state, Axes& axes) {
 }
 
 void gridLine(const Ui& ui, const Axes& axes, double value, float& last_y) {
-    const double place = std::log10(value);
     const float y = axes.y(value);
-    if (place < axes.low || place > axes.high || last_y - y < ui.px(14))
+    if (last_y - y < ui.px(14))
         return;
     last_y = y;
     horizontalHairline(ui, axes.plot.position.x, axes.plot.end().x, y);
@@ -94,18 +99,42 @@ void gridLine(const Ui& ui, const Axes& axes, double value, float& last_y) {
              {ui.theme.fonts.small, color::kSecondary});
 }
 
-// A line for each power of ten that the axis spans, of sizes at binary-friendly ones.
-void drawGrid(const Ui& ui, const Axes& axes) {
-    const TextStyle style{ui.theme.fonts.small, color::kSecondary};
+// The powers of ten that the axis spans, of sizes at binary-friendly ones, times each multiple;
+// rising.
+std::vector<double> gridValues(const Axes& axes, std::span<const double> multiples) {
     constexpr double kKib = 1024.0;
-    float last_y = std::numeric_limits<float>::max();
+    std::vector<double> values;
+    const auto add = [&](double power, double below) {
+        for (const double multiple : multiples) {
+            const double place = std::log10(power * multiple);
+            if (power * multiple < below && place >= axes.low && place <= axes.high)
+                values.push_back(power * multiple);
+        }
+    };
     if (axes.kind == ChartKind::Size)
         for (double unit = 1.0; unit < 1e15; unit *= kKib)
-            for (double step = unit; step < unit * 999.0; step *= 10.0)
-                gridLine(ui, axes, step, last_y);
+            for (double power = unit; power < unit * 999.0; power *= 10.0)
+                add(power, unit * kKib);
     else
         for (int decade = -6; decade <= 3; ++decade)
-            gridLine(ui, axes, std::pow(10.0, decade), last_y);
+            add(std::pow(10.0, decade), std::numeric_limits<double>::max());
+    return values;
+}
+
+// Lines at powers of ten, or between them where there would be less than two.
+void drawGrid(const Ui& ui, const Axes& axes) {
+    constexpr std::array kCoarse = {1.0};
+    constexpr std::array kMiddle = {1.0, 2.0, 5.0};
+    constexpr std::array kFine = {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0};
+    const TextStyle style{ui.theme.fonts.small, color::kSecondary};
+    std::vector<double> values = gridValues(axes, kCoarse);
+    if (values.size() < 2)
+        values = gridValues(axes, kMiddle);
+    if (values.size() < 2)
+        values = gridValues(axes, kFine);
+    float last_y = std::numeric_limits<float>::max();
+    for (const double value : values)
+        gridLine(ui, axes, value, last_y);
     const float below = axes.plot.end().y + ui.px(4);
     drawText(ui, {axes.plot.position.x, below}, Align::Left, "0", style);
     drawText(ui, {axes.plot.end().x, below}, Align::Right, "triangles 100 %", style);
@@ -170,6 +199,7 @@ void drawReading(const Ui& ui,
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(10), ui.px(8)});
     ImGui::BeginTooltip();
     ImGui::TextDisabled("%s of the triangles", formatRatio(ratio).c_str());
+    int lanes = 0;
     for (const Lane& lane : input.document.lanes) {
         const double value = valueAt(axes, state.curves.of(lane.id), ratio);
         if (value < 0.0)
@@ -180,7 +210,11 @@ void drawReading(const Ui& ui,
         const std::string name(laneName(lane.settings));
         ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ui.px(16));
         ImGui::Text("%s  %s", name.c_str(), axes.text(value).c_str());
+        ++lanes;
     }
+    ui.log.object("reading",
+                  axes.kind == ChartKind::Size ? "chart" : "error chart",
+                  "\"ratio\":" + std::to_string(ratio) + ",\"lanes\":" + std::to_string(lanes));
     ImGui::EndTooltip();
     ImGui::PopStyleVar();
 }

@@ -256,12 +256,13 @@ void drawMasterStrip(Ui ui, const PanelInput& input, WindowState& state, const A
     const float left = area.position.x + ui.px(12);
     const float middle = area.position.y + area.size.y * 0.5f;
     const float right = displayButton(ui, input, area.end().x - ui.px(12), middle) - ui.px(16);
-    drawText(ui, {left, text_y}, Align::Left, "All lanes", {nullptr, color::kSecondary});
-    drawText(ui, {right, text_y}, Align::Right, value, {ui.theme.fonts.semibold});
-    ImGui::SetCursorScreenPos(
-        {left + label_width, area.position.y + (area.size.y - ui.px(16)) * 0.5f});
-    if (input.document.scene)
+    if (input.document.scene) {
+        drawText(ui, {left, text_y}, Align::Left, "All lanes", {nullptr, color::kSecondary});
+        drawText(ui, {right, text_y}, Align::Right, value, {ui.theme.fonts.semibold});
+        ImGui::SetCursorScreenPos(
+            {left + label_width, area.position.y + (area.size.y - ui.px(16)) * 0.5f});
         masterSlider(ui, input, state, right - left - label_width - value_width);
+    }
     horizontalHairline(ui, area.position.x, area.end().x, area.end().y - ui.theme.hairline());
     endPanel();
     ImGui::PopStyleVar();

@@ -37,7 +37,8 @@ void drawJob(const Ui& ui, const Document& document, const JobStatus& job, float
                  job.progress,
                  lane ? packed(lane->settings.colour) : color::kAccent);
     x += ui.px(156);
-    if (job.remaining_s)
+    constexpr double kTellsSomething = 0.5;
+    if (job.remaining_s && *job.remaining_s >= kTellsSomething)
         put(formatSeconds(*job.remaining_s) + " left", color::kSecondary);
     ImGui::SetCursorScreenPos({x, y});
     if (linkButton(ui, "Cancel"))

@@ -65,12 +65,19 @@ void recentList(const Ui& ui, const Document& document, WindowState& state, floa
 } // namespace
 
 void drawWelcome(Ui ui, const PanelInput& input, WindowState& state, const Area& area) {
-    if (!state.welcome)
+    // Where nothing could be opened, it is all there is to see.
+    const bool alone = input.document.load_state == LoadState::Empty;
+    if (!state.welcome && !alone)
         return;
     ui.panel = "Welcome";
     const float width = std::min(ui.px(640), area.size.x - ui.px(24));
-    ImGui::SetNextWindowPos(
-        {area.position.x + area.size.x * 0.5f, area.end().y - ui.px(34)}, 0, {0.5f, 1.0f});
+    const float middle_x = area.position.x + area.size.x * 0.5f;
+    if (alone)
+        ImGui::SetNextWindowPos(
+            {middle_x, area.position.y + area.size.y * 0.4f}, ImGuiCond_Always, {0.5f, 0.5f});
+    else
+        ImGui::SetNextWindowPos(
+            {middle_x, area.end().y - ui.px(34)}, ImGuiCond_Always, {0.5f, 1.0f});
     ImGui::SetNextWindowSize({width, 0});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.px(4));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, ui.theme.hairline());
@@ -87,11 +94,13 @@ void drawWelcome(Ui ui, const PanelInput& input, WindowState& state, const Area&
         ui,
         begin + ImVec2(0, ui.px(20)),
         Align::Left,
-        fitText(
-            ui, "Drag the slider above the views: every lane follows. Try another scene:", inner),
+        fitText(ui,
+                alone ? "Nothing is open. Choose a scene:"
+                      : "Drag the slider above the views: every lane follows. Try another scene:",
+                inner),
         {nullptr, color::kSecondary});
     ImGui::SetCursorScreenPos(begin + ImVec2(inner - textWidth(ui, "\u00d7"), 0));
-    if (linkButton(ui, "\u00d7", color::kSecondary))
+    if (!alone && linkButton(ui, "\u00d7", color::kSecondary))
         state.welcome = false;
     ImGui::SetCursorScreenPos(begin + ImVec2(0, ui.px(46)));
     const float spacing = ui.px(8);

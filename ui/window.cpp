@@ -24,6 +24,7 @@ void logState(UiLog& log, const WindowState& state, const Document& document) {
         ",\"error_chart\":" + (state.chart == ChartKind::Error ? "true" : "false") +
         ",\"width\":" + std::to_string(ImGui::GetIO().DisplaySize.x) +
         ",\"azimuth\":" + std::to_string(document.camera.azimuth_deg) +
+        ",\"distance\":" + std::to_string(document.camera.distance) +
         ",\"light_azimuth\":" + std::to_string(view.light_azimuth_deg) + ",\"shading\":\"" +
         std::string(shadingName(view.shading)) + "\"";
     log.object("window", "state", members);

@@ -16,7 +16,8 @@ namespace lodestone::ui {
 struct LanePicture {
     LaneId lane = kNoLane;
     ImTextureID texture = nullptr;
-    bool draft = false; // not yet the LOD and camera that the lane stands at
+    bool draft = false;        // not yet the LOD and camera that the lane stands at
+    std::uint64_t version = 0; // another for every picture drawn
 };
 
 // What the grid needs pictures of, in framebuffer pixels.

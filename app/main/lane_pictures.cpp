@@ -2,14 +2,15 @@
 
 #include "app/main/texture_id.h"
 #include "app/main/view_values.h"
+#include "app/scene_texels.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lodestone {
 
 namespace {
 
-constexpr double kPictureBudgetMs = 25.0;
 constexpr double kPicturesDoneMs = 45.0; // after the frame began; what is left is for its output
 constexpr double kSoftwareMsPerTriangle = 0.0004; // llvmpipe on two busy cores
 constexpr std::chrono::milliseconds kRest{150};   // no input for so long: refine
@@ -87,24 +88,31 @@ void LanePictures::addReference(const Document& document, std::vector<ViewSet::W
         {kNoLane, document.scene, fullOriginal(document), nullptr, wanted.front().size, {}});
 }
 
+bool LanePictures::noteShape(const Document& document, std::span<const ui::ViewRequest> views) {
+    constexpr double kSameShape = 0.02; // cells of a grid differ by a pixel
+    if (views.empty())
+        return false;
+    view_aspect_ = ViewSize{views.front().width_px, views.front().height_px}.aspect();
+    return document.camera == framed_camera_ &&
+           std::abs(view_aspect_ - framed_aspect_) > kSameShape * framed_aspect_;
+}
+
 bool LanePictures::draw(Session& session,
                         std::span<const ui::ViewRequest> views,
                         Clock::time_point frame_began) {
     const std::chrono::duration<double, std::milli> passed = Clock::now() - frame_began;
-    const double budget_ms = std::clamp(kPicturesDoneMs - passed.count(), 0.0, kPictureBudgetMs);
+    const double budget_ms = std::clamp(kPicturesDoneMs - passed.count(), 0.0, Drafts::kPicturesMs);
     const Document& document = session.document();
     noteMotion(document);
     std::vector<ViewSet::Wanted> wanted = wantedPictures(document, views);
     addReference(document, wanted);
-    if (!views.empty()) {
-        const ViewSize size{views.front().width_px, views.front().height_px};
-        view_aspect_ = size.aspect();
-        session.setViewSide(std::min(size.width_px, size.height_px));
-    }
-    const auto drawn = pictures_.draw(wanted,
-                                      orbitCamera(document.camera, document.bounds, view_aspect_),
-                                      viewOptions(document.view, errorMapFull(document)),
-                                      budget_ms);
+    if (!views.empty())
+        session.setViewSide(std::min(views.front().width_px, views.front().height_px));
+    const auto drawn = pictures_.draw(
+        wanted,
+        orbitCamera(document.camera, document.bounds, view_aspect_),
+        viewOptions(document.view, {errorMapFull(document), texelsFull(document.texels_per_unit)}),
+        budget_ms);
     if (!drawn) {
         session.reportError(drawn.error().message); // repeats are counted, not listed again
         return false;
@@ -187,9 +195,9 @@ void LanePictures::measureNext(Session& session) {
 }
 
 LaneId LanePictures::laneToPickFrom(const Document& document, LaneId lane_id) const {
+    // What a lane's status names may not be drawn yet.
     const auto shows_original = [&](LaneId id) {
-        const Lane* const lane = document.findLane(id);
-        return lane && drawnLod(lane->status).scene == document.scene;
+        return document.scene && pictures_.pickedScene(id) == document.scene.get();
     };
     if (shows_original(lane_id))
         return lane_id;
@@ -266,7 +274,10 @@ bool LanePictures::take(Session& session, const std::vector<ViewSet::Picture>& d
         }
         if (picture.key == kNoLane)
             continue; // the reference
-        shown_.push_back({picture.key, textureId(picture.texture), picture.stale || picture.draft});
+        shown_.push_back({picture.key,
+                          textureId(picture.texture),
+                          picture.stale || picture.draft,
+                          picture.version});
     }
     drafts_.forgetOthers(session.document());
     return changed;
@@ -299,6 +310,10 @@ CameraState LanePictures::framedCamera(const Document& document, const Bounds& p
     CameraState framed = document.camera;
     framed.target = camera.target;
     framed.distance = camera.distance;
+    if (part.empty) {
+        framed_camera_ = framed;
+        framed_aspect_ = view_aspect_;
+    }
     return framed;
 }
 

@@ -18,6 +18,10 @@ public:
 
     LanePictures(const GlContext& context, const Renderer& renderer);
 
+    // Takes in the shape of the views, before framedCamera() and draw(). Returns whether they have
+    // another one than when the camera was made to show everything, and it stands there still.
+    bool noteShape(const Document& document, std::span<const ui::ViewRequest> views);
+
     // Goes on drawing what the views should show; tells the session what lanes cost and what went
     // wrong. The more of the frame has passed since it began, the less is drawn.
     // Returns whether any picture is another than before.
@@ -84,6 +88,8 @@ private:
     ScenePtr framed_scene_;
     FramePoints frame_points_; // of framed_scene_
     double view_aspect_ = 1.0;
+    CameraState framed_camera_; // it showed everything
+    double framed_aspect_ = 1.0;
     CameraState seen_camera_;
     DisplayOptions seen_view_;
     std::map<LaneId, std::uint64_t> seen_lods_;    // lod_revision

@@ -91,7 +91,8 @@ private:
         frame_times_.ended(FramePart::Interface);
         bool again = session_.update(commands_);
         const Document& document = session_.document();
-        if (document.scene && document.camera.distance <= 0.0) {
+        const bool other_shape = pictures_.noteShape(document, window_.views());
+        if (document.scene && (document.camera.distance <= 0.0 || other_shape)) {
             commands_.push(FrameScene{});
             again = session_.update(commands_) || again;
         }
@@ -113,8 +114,8 @@ private:
     }
 
     void finishFrame() {
-        session_.uiLog().frame(++facts_.frame);
         logPictures();
+        session_.uiLog().frame(++facts_.frame);
         frame_times_.ended(FramePart::Output);
         if (const auto told = frame_times_.finish())
             session_.uiLog().object("frames", "frames", *told);
@@ -132,8 +133,14 @@ private:
         host_.setTitle(document.scene ? document.scene->name + " \u2013 Lodestone" : "Lodestone");
     }
 
-    // For tests: how many views show a picture, and whether all show what they should.
+    // For tests: which picture each view shows, how many do, and whether all show what they should.
     void logPictures() {
+        if (!session_.uiLog().enabled())
+            return;
+        for (const ui::LanePicture& picture : pictures_.shown())
+            session_.uiLog().object("picture",
+                                    std::to_string(picture.lane),
+                                    "\"version\":" + std::to_string(picture.version));
         const bool final = pictures_.final() && session_.document().jobs.empty();
         const auto shown =
             std::ranges::count_if(pictures_.shown(), [](const ui::LanePicture& picture) {

@@ -182,6 +182,14 @@ def test_messages_are_listed_counted_and_cleared(folder):
         window.wait("the menu", lambda: window.get("widget", "Menu/File/Quit"))
 
 
+def test_where_nothing_could_be_opened_scenes_are_offered(folder):
+    with Window(base.BINARY, [f"{folder}/nowhere.glb"]) as window:
+        window.wait("an error", lambda: any(m["severity"] == "error" for m in window.messages))
+        window.click("Welcome/bunny")
+        window.wait_ready("original")
+        window.wait("one submesh", lambda: window.lane("original")["instances"] == 1)
+
+
 def test_a_missed_target_is_marked_in_the_view(folder):
     with open_chair(folder) as window:
         window.drag(f"Lane {window.lane_id('ias')}/Target", (0.45, 0.5), (0.0, 0.5))

@@ -156,7 +156,7 @@ def test_every_shading_and_background_is_another_picture(folder):
         pictures = []
         modes = {"Clay": "clay", "Matcap": "matcap", "Flat": "flat", "Normals": "normals",
                  "UV checker": "uv", "By submesh": "submesh", "By instance": "instance",
-                 "By LOD state": "lod", "Lit": "lit"}
+                 "By LOD state": "lod", "Texel density": "texels", "Lit": "lit"}
         for mode, name in modes.items():
             choose(window, f"Shading: {mode}")
             window.wait(mode, lambda n=name: window.state()["shading"] == n)
@@ -169,6 +169,21 @@ def test_every_shading_and_background_is_another_picture(folder):
         window.move(*window.center("Master/Master"))
         window.wait_still()
         assert differing_share(pictures[-1], window.picture(rect)) > 0.2, "the same background"
+
+
+def test_the_camera_that_shows_everything_does_so_in_views_of_another_shape(folder):
+    with open_chair(folder) as window:
+        narrow = window.state()["distance"]
+        window.click("Menu/Views/1")
+        window.wait("another distance",
+                    lambda: abs(window.state()["distance"] - narrow) > 0.05 * narrow)
+        window.click("Menu/Views/3")
+        window.wait("as before", lambda: abs(window.state()["distance"] - narrow) < 0.01 * narrow)
+        window.drag(view(window, "ias"), (0.4, 0.5), (0.6, 0.5))
+        window.click("Menu/Views/1")
+        window.wait("one view", lambda: window.state()["views"] == 1)
+        window.wait_still()
+        assert abs(window.state()["distance"] - narrow) < 0.01 * narrow, "the user's camera moved"
 
 
 def test_g_shows_the_floor_and_m_makes_it_shine(folder):
@@ -233,6 +248,39 @@ def test_a_chart_of_errors_stands_behind_that_of_sizes(folder):
         before = window.picture(window.rect("Compare/error chart"))
         window.drag("Master/Master", (0.45, 0.5), (0.2, 0.5))
         assert differing_share(before, window.picture(window.rect("Compare/error chart"))) > 0.001
+
+
+def test_the_mouse_over_a_chart_reads_its_values(folder):
+    with open_chair(folder) as window:
+        window.wait("the curves", lambda: window.get("widget", "Compare/chart"))
+        chart = window.rect("Compare/chart")
+        window.move(60, 300)
+        window.wait_still()
+        before = window.picture(chart)
+        window.move(round(chart[0] + 0.5 * chart[2]), round(chart[1] + 0.5 * chart[3]))
+        window.wait("what is read", lambda: window.get("reading", "chart"))
+        window.wait_frames(3)
+        reading = window.get("reading", "chart")
+        assert 0.45 < reading["ratio"] < 0.55 and reading["lanes"] == 2, reading
+        assert differing_share(before, window.picture(chart)) > 0.01, "nothing is shown"
+
+
+def test_a_lane_takes_its_target_in_each_unit(folder):
+    with open_chair(folder) as window:
+        window.click(view(window, "ias"))
+        for kind, typed, holds in (
+                ("tri", "900", lambda lane: 800 < lane["triangles"] <= 900),
+                ("size", "15 KB", lambda lane: 13_000 < lane["bytes"] <= 15_360),
+                ("error", "0.5", lambda lane: lane["triangles"] > 0),
+                ("%", "50", lambda lane: 0.45 < lane["ratio"] <= 0.5)):
+            window.click(f"Inspector/Target kind/{kind}")
+            lod = window.lane("ias")["lod"]
+            window.click("Inspector/Target value")
+            window.key("ctrl+a")
+            window.type(typed)
+            window.key("Return")
+            window.wait(f"{typed} {kind}", lambda h=holds, n=lod: window.lane("ias")["lod"] > n and
+                        h(window.lane("ias")))
 
 
 def test_a_target_in_pixels_follows_the_camera(folder):

@@ -34,6 +34,8 @@ class Window:
         self.frame = 0
         self.messages = []
         self.frame_times = []
+        self.changes = {}  # number of a frame -> {(kind, name)} of what became another in it
+        self._changed = set()
 
     def __enter__(self):
         return self
@@ -63,8 +65,10 @@ class Window:
             entry = json.loads(line)
             if entry["kind"] == "frame":
                 self.frame = entry["number"]
+                self.changes[self.frame], self._changed = self._changed, set()
             else:
                 self.objects[entry["kind"], entry["name"]] = entry
+                self._changed.add((entry["kind"], entry["name"]))
             if entry["kind"] == "frames":
                 self.frame_times.append(entry)
             if entry["kind"] == "message":

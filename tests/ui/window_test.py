@@ -94,7 +94,13 @@ def test_the_master_slider_moves_every_lane_while_it_is_dragged(folder):
             for name in ("ias", "quadric"):
                 window.wait(f"{name} follows the drag",
                             lambda n=name: window.lane(n)["triangles"] < before[n])
+        window.wait_still()
+        begin = window.frame
         window.drag("Master/Master", (0.45, 0.5), (0.2, 0.5), then=while_held)
+        both = {(kind, window.lane_id(name)) for kind in ("lane", "picture")
+                for name in ("ias", "quadric")}
+        assert any(both <= changed for frame, changed in window.changes.items() if frame > begin), \
+            "numbers and pictures never changed in one frame"
         assert window.lane("original")["triangles"] == before["original"], "Original moved"
         assert differing_share(picture, window.picture(rect)) > 0.002, "the picture is the same"
 
