@@ -334,17 +334,30 @@ public:
                 ++cursor.item;
         }
         cursor.finished = true;
+        cursor.complete = input_.options.highlighted.empty() && !input_.options.grid;
         return drawSorted(sorted);
     }
 
-    // Over the surfaces that are there already.
-    Result<void> drawHighlighted() {
-        for (const Highlight& highlight : input_.options.highlighted)
-            for (const DrawItem& item : input_.lod->state()->items)
-                if (item.submesh == highlight.submesh && item.mode == PrimitiveMode::Triangles)
-                    if (Result<void> drawn = drawHighlighted(item, highlight.instance); !drawn)
-                        return drawn;
-        return {};
+    // Over the surfaces that are there already. Returns whether all are drawn.
+    Result<bool> drawHighlightedFrom(DrawCursor& cursor, std::uint64_t most_triangles) {
+        const std::vector<DrawItem>& items = input_.lod->state()->items;
+        const std::vector<Highlight>& highlighted = input_.options.highlighted;
+        while (cursor.mark < highlighted.size() * items.size()) {
+            const Highlight& highlight = highlighted[cursor.mark / items.size()];
+            const DrawItem& item = items[cursor.mark % items.size()];
+            if (item.submesh == highlight.submesh && item.mode == PrimitiveMode::Triangles) {
+                if (totals_.triangles >= most_triangles)
+                    return false;
+                const std::uint64_t most = most_triangles - totals_.triangles;
+                if (const Result<void> drawn =
+                        drawHighlighted(item, highlight.instance, cursor.mark_begin, most);
+                    !drawn)
+                    return tl::unexpected(drawn.error());
+            }
+            if (cursor.mark_begin == 0)
+                ++cursor.mark;
+        }
+        return true;
     }
 
     void drawGrid() const {
@@ -409,20 +422,32 @@ private:
         return {};
     }
 
-    Result<void> drawHighlighted(const DrawItem& item, std::uint32_t instance) {
-        DrawRange range{0, item.geometry->index_count, item.kept_instances};
+    // One instance or, with kNone, all from `begin` on, which moves behind what is drawn and is 0
+    // again once all are.
+    Result<void> drawHighlighted(const DrawItem& item,
+                                 std::uint32_t instance,
+                                 std::uint32_t& begin,
+                                 std::uint64_t most_triangles) {
+        DrawRange range{0, item.geometry->index_count, 1};
         std::uint32_t place = 0;
         if (instance != kNone) {
             place = placeOf(item, instance);
             if (place == kNone)
                 return {};
-            range.instance_count = 1;
+        } else {
+            const std::uint32_t count = item.kept_instances;
+            if (count == 0)
+                return {};
+            range = nextRange(item, count, begin, most_triangles);
+            place = count > 1 ? begin : 0;
+            begin = placeBehind(item, count, begin, range);
         }
         if (Result<void> bound = binder_.bind(item, kHighlight); !bound)
             return bound;
         pointAtInstances(*item.instances, place);
         drawItem(item, range);
         pointAtInstances(*item.instances, 0);
+        totals_.triangles += triangleCount(item, range);
         return {};
     }
 
@@ -448,15 +473,6 @@ void useFrame(const RendererState& renderer, const FrameBlock& block) {
     glBindBuffer(GL_UNIFORM_BUFFER, renderer.frameBuffer());
     glBufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STREAM_DRAW);
     glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, renderer.frameBuffer());
-}
-
-// What is highlighted and lies in another scene.
-Result<void> drawMarks(const View::Input& input, const Antialiasing& antialiasing) {
-    View::Input marks = input;
-    marks.scene = input.marked_scene;
-    marks.lod = input.marked_lod;
-    useFrame(*marks.scene->state().renderer, nearerFrameBlock(marks, antialiasing));
-    return ItemDrawer(marks, antialiasing).drawHighlighted();
 }
 
 } // namespace
@@ -500,22 +516,31 @@ Result<DrawTotals> drawLod(const View::Input& input,
     return drawer.totals();
 }
 
-Result<void> drawOver(const View::Input& input, const Antialiasing& antialiasing) {
-    const bool here = input.marked_scene == nullptr && !input.options.highlighted.empty();
-    if (!here && input.marked_scene == nullptr && !input.options.grid)
-        return {};
+Result<void> drawOver(const View::Input& input,
+                      const Antialiasing& antialiasing,
+                      DrawCursor& cursor,
+                      std::uint64_t most_triangles) {
+    const RendererState& renderer = *input.scene->state().renderer;
+    View::Input marks = input;
+    if (input.marked_scene != nullptr) { // what is highlighted lies in another scene
+        marks.scene = input.marked_scene;
+        marks.lod = input.marked_lod;
+        useFrame(renderer, nearerFrameBlock(marks, antialiasing));
+    } else {
+        useFrame(renderer, frameBlock(input, antialiasing));
+    }
     setFixedState();
-    useFrame(*input.scene->state().renderer, frameBlock(input, antialiasing));
-    ItemDrawer drawer(input, antialiasing);
-    Result<void> drawn;
-    if (here)
-        drawn = drawer.drawHighlighted();
-    if (drawn && input.options.grid)
-        drawer.drawGrid();
-    if (drawn && input.marked_scene != nullptr)
-        drawn = drawMarks(input, antialiasing);
+    const Result<bool> all =
+        ItemDrawer(marks, antialiasing).drawHighlightedFrom(cursor, most_triangles);
+    if (all && *all && input.options.grid) {
+        useFrame(renderer, frameBlock(input, antialiasing));
+        ItemDrawer(input, antialiasing).drawGrid();
+    }
     resetState();
-    return drawn;
+    if (!all)
+        return tl::unexpected(all.error());
+    cursor.complete = *all;
+    return {};
 }
 
 } // namespace lodestone

@@ -26,8 +26,11 @@ struct DrawCursor {
     std::size_t item = 0; // in LodState::items
     std::uint32_t begin =
         0; // of that item's seen instances, or of its indices if it has one instance
-    bool finished = false;
-    Culling* culling = nullptr; // prepared for the picture; null: every instance is drawn
+    bool finished = false;        // every surface is drawn
+    std::size_t mark = 0;         // where highlights go on: highlight * items + item
+    std::uint32_t mark_begin = 0; // as begin, of that item's kept instances
+    bool complete = false;        // finished, and what lies over the surfaces is drawn, too
+    Culling* culling = nullptr;   // prepared for the picture; null: every instance is drawn
 };
 
 // Draws surfaces from the cursor on and moves it. Stops once about most_triangles are drawn,
@@ -38,8 +41,11 @@ Result<DrawTotals> drawLod(const View::Input& input,
                            DrawCursor& cursor,
                            std::uint64_t most_triangles);
 
-// Draws what lies over the surfaces once all are there: highlights, then the floor's grid.
-// Errors: as drawLod().
-Result<void> drawOver(const View::Input& input, const Antialiasing& antialiasing);
+// Draws what lies over the surfaces once all are there, from the cursor on: highlights, then the
+// floor's grid. Stops as drawLod() does; errors as there.
+Result<void> drawOver(const View::Input& input,
+                      const Antialiasing& antialiasing,
+                      DrawCursor& cursor,
+                      std::uint64_t most_triangles);
 
 } // namespace lodestone

@@ -203,14 +203,16 @@ Result<DrawTotals> ViewState::render(const View::Input& input) {
     if (hasPicture(input)) {
         culling_.prepare(input);
         totals = drawLod(input, antialiasing_, cursor, kEveryTriangle);
-        if (const Result<void> over = drawOver(input, antialiasing_); totals && !over)
-            totals = tl::unexpected(over.error());
+        if (totals && !cursor.complete)
+            if (const auto over = drawOver(input, antialiasing_, cursor, kEveryTriangle); !over)
+                totals = tl::unexpected(over.error());
     }
     endPicture(input);
     return totals;
 }
 
-// At least one slice; stops once the budget is as good as spent or everything is drawn.
+// At least one slice; stops once the budget is as good as spent or everything is drawn. The pace is
+// that of surfaces alone.
 Result<DrawTotals>
 ViewState::drawSlices(const View::Input& input, DrawCursor& cursor, double budget_ms) {
     const Clock::time_point begun = Clock::now();
@@ -221,22 +223,24 @@ ViewState::drawSlices(const View::Input& input, DrawCursor& cursor, double budge
     double spent_ms = 0.0;
     do {
         const std::uint64_t most = pace.trianglesWithin(budget_ms - spent_ms);
-        const Result<DrawTotals> slice = drawLod(input, antialiasing_, cursor, most);
-        if (!slice)
-            return tl::unexpected(slice.error());
-        all.triangles += slice->triangles;
-        all.draw_calls += slice->draw_calls;
+        std::uint64_t surfaces = 0;
+        if (cursor.finished) {
+            if (const auto over = drawOver(input, antialiasing_, cursor, most); !over)
+                return tl::unexpected(over.error());
+        } else {
+            const Result<DrawTotals> slice = drawLod(input, antialiasing_, cursor, most);
+            if (!slice)
+                return tl::unexpected(slice.error());
+            surfaces = slice->triangles;
+            all.triangles += slice->triangles;
+            all.draw_calls += slice->draw_calls;
+        }
         glFinish();
         const double now_ms = elapsedMs(begun);
-        pace.drew(slice->triangles, now_ms - spent_ms);
+        pace.drew(surfaces, now_ms - spent_ms);
         spent_ms = now_ms;
-    } while (!cursor.finished && spent_ms + kShortestSliceMs < budget_ms);
-    Result<void> over;
-    if (cursor.finished) // beside the pace, which is that of surfaces
-        over = drawOver(input, antialiasing_);
+    } while (!cursor.complete && spent_ms + kShortestSliceMs < budget_ms);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    if (!over)
-        return tl::unexpected(over.error());
     return all;
 }
 
@@ -324,7 +328,7 @@ ViewState::drawBudgeted(const View::Input& input, const PictureKey& key, double 
     }
     sliced_->totals.triangles += totals->triangles;
     sliced_->totals.draw_calls += totals->draw_calls;
-    last_.complete = sliced_->cursor.finished;
+    last_.complete = sliced_->cursor.complete;
     if (!last_.complete) {
         sliced_->cost_ms += elapsedMs(begun);
         return last_;

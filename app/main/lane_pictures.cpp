@@ -57,6 +57,10 @@ std::vector<ViewSet::Wanted> LanePictures::wantedPictures(const Document& docume
             continue;
         wanted.back().highlighted = highlighted;
         if (shown.scene != document.scene) { // it has dissolved submeshes and instances
+            if (draft) { // marks of the whole original would make it as slow as what it stands for
+                wanted.back().highlighted.clear();
+                continue;
+            }
             wanted.back().marked_scene = document.scene;
             wanted.back().marked_lod = fullOriginal(document);
         }

@@ -63,6 +63,31 @@ TEST_F(SlicesTest, ManySlicesGiveThePictureOfOneDraw) {
     EXPECT_TRUE(again->complete && !again->drew);
 }
 
+TEST_F(SlicesTest, HighlightsOfEverythingAreDrawnInSlicesToo) {
+    auto gpu = GpuScene::create(*renderer_, scene_);
+    ASSERT_TRUE(gpu) << gpu.error().message;
+    LodHandle lod;
+    ASSERT_TRUE(gpu->update(lod, fullLod(*scene_)));
+    View::Input input{&*gpu, &lod, camera_, {}, kSize};
+    const auto callsOf = [&](View& view) {
+        int calls = 1;
+        while (!view.draw(input, 0.0)->complete)
+            ++calls;
+        return calls;
+    };
+    auto plain = View::create(*renderer_);
+    auto whole = View::create(*renderer_);
+    auto sliced = View::create(*renderer_);
+    ASSERT_TRUE(plain && whole && sliced);
+    const int plain_calls = callsOf(*plain);
+    for (std::uint32_t s = 0; s < scene_->submeshes.size(); ++s)
+        input.options.highlighted.push_back({s, kNone});
+    input.options.grid = true;
+    EXPECT_GT(callsOf(*sliced), plain_calls + 3);
+    ASSERT_TRUE(whole->draw(input));
+    EXPECT_EQ(whole->readPixels()->rgba, sliced->readPixels()->rgba);
+}
+
 TEST_F(SlicesTest, AnotherCameraStartsThePictureAgain) {
     auto gpu = GpuScene::create(*renderer_, scene_);
     ASSERT_TRUE(gpu) << gpu.error().message;
