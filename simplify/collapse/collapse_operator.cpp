@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 
 namespace lodestone {
 
@@ -231,6 +232,43 @@ void ComponentMesh::mergeFaces(std::uint32_t a, std::uint32_t b) {
         corners[cornerOf(corners, b)] = a;
         *to++ = face.face;
     }
+}
+
+void ComponentMesh::reorderSteps(std::uint32_t first_step, std::span<const std::uint32_t> order) {
+    std::vector<std::uint32_t> place(order.size()); // of each step, from first_step on
+    std::vector<float> costs(order.size());
+    std::vector<float> errors(order.size());
+    for (std::uint32_t i = 0; i < order.size(); ++i) {
+        place[order[i]] = i;
+        costs[i] = log_.cost[first_step + order[i]];
+        errors[i] = log_.error2[first_step + order[i]];
+    }
+    std::ranges::copy(costs, log_.cost.begin() + first_step);
+    std::ranges::copy(errors, log_.error2.begin() + first_step);
+    const auto moved = [&](std::uint32_t step) {
+        return first_step + 1 + place[step - first_step - 1];
+    };
+    for (const std::uint32_t face : face_ids_) {
+        std::uint32_t& death = log_.face_death[face];
+        if (death != kNone && death > first_step)
+            death = moved(death);
+    }
+    for (std::size_t v = log_.version_step.size(); v-- > 0 && log_.version_step[v] > first_step;)
+        log_.version_step[v] = moved(log_.version_step[v]);
+    // The wedges that each step has killed lie together.
+    std::size_t kill_begin = log_.kill_order.size();
+    std::vector<std::uint32_t> begin(order.size() + 1, 0);
+    while (kill_begin > 0 && log_.wedge_death[log_.kill_order[kill_begin - 1]] > first_step)
+        ++begin[log_.wedge_death[log_.kill_order[--kill_begin]] - first_step];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    const std::vector<std::uint32_t> kills(
+        log_.kill_order.begin() + static_cast<std::ptrdiff_t>(kill_begin), log_.kill_order.end());
+    std::size_t at = kill_begin;
+    for (std::uint32_t i = 0; i < order.size(); ++i)
+        for (std::uint32_t k = begin[order[i]]; k < begin[order[i] + 1]; ++k) {
+            log_.kill_order[at++] = kills[k];
+            log_.wedge_death[kills[k]] = first_step + 1 + i;
+        }
 }
 
 } // namespace lodestone

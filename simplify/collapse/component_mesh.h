@@ -127,6 +127,20 @@ public:
                      const Placement& placement,
                      Strictness strictness);
 
+    std::uint32_t stepCount() const { return log_.stepCount(); }
+
+    // The vertices that the last collapse looked at, and those whose place or faces it changed;
+    // some more than once. Two collapses of different ends in which neither looks at what the
+    // other changed may change places.
+    template <class Visit>
+    void visitReadByCollapse(Visit visit) const;
+    template <class Visit>
+    void visitChangedByCollapse(Visit visit) const;
+
+    // Puts the steps after `first_step` into another order: order[i] is the place, from there, of
+    // the one that is to be at i. No vertex may be an end of two of them.
+    void reorderSteps(std::uint32_t first_step, std::span<const std::uint32_t> order);
+
     // Moves what is alive together again, once half the faces are dead: later work stays in cache.
     // Result: new number of each vertex, kNone for the dead; empty if nothing was moved.
     std::span<const std::uint32_t> compact();
@@ -371,6 +385,25 @@ ComponentMesh::Spokes ComponentMesh::costSpokes(std::uint32_t v, Accept accept) 
         costSpokeEdges<SpokeWedges::Several>(v);
     }
     return {spokes_, spoke_keys_};
+}
+
+template <class Visit>
+void ComponentMesh::visitReadByCollapse(Visit visit) const {
+    for (const std::span<const RingFace> ring : {ring_a_, ring_b_})
+        for (const RingFace& face : ring) {
+            visit(face.next);
+            visit(face.last);
+        }
+    for (const std::uint32_t f : dying_)
+        for (const std::uint32_t v : faces_[f])
+            visit(v);
+}
+
+template <class Visit>
+void ComponentMesh::visitChangedByCollapse(Visit visit) const {
+    for (const std::uint32_t f : dying_)
+        for (const std::uint32_t v : faces_[f])
+            visit(v);
 }
 
 // Counts faces gone, over all components, and says when to stop. Looked at about every 1,000

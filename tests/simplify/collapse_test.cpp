@@ -106,6 +106,29 @@ TEST(Collapse, NearGreedyPassesKeepClosedMeshesClosed) {
     EXPECT_EQ(sequence.facesAt(sequence.step_count), 4u);
 }
 
+// Passes go through a mesh as large as this part by part; their steps are in the order of costs.
+TEST(Collapse, EveryStepOfALargeMeshIsSoundAndAsCoarseOnBothSides) {
+    const Submesh submesh = submeshOf({meshes::sphere(260, 260)});
+    const CollapseSequence sequence = sequenceOf(submesh);
+    const double cosine = std::cos(glm::radians(CollapseOptions{}.flip_angle_deg));
+    const auto whole = static_cast<double>(sequence.facesAt(0));
+    for (std::uint32_t step = 1; sequence.facesAt(step) > 60'000; step += 1709) {
+        ASSERT_EQ(turnedFaces(sequence, submesh, step, cosine), 0u) << "step " << step;
+        const std::vector<GeometryPtr> level = readAt(sequence, submesh, step);
+        double up = 0.0;
+        double down = 0.0;
+        for (std::size_t i = 0; i < level[0]->indices.size(); i += 3)
+            (level[0]->positions[level[0]->indices[i]].z > 0.0f ? up : down) += 1.0;
+        ASSERT_NEAR(up / whole, down / whole, 0.02) << "step " << step;
+        if (step % 10 != 5)
+            continue;
+        const Shape shape = meshes::shapeOf(level);
+        ASSERT_EQ(shape.border_edges, 0u) << "step " << step;
+        ASSERT_EQ(shape.non_manifold_edges, 0u) << "step " << step;
+        ASSERT_EQ(shape.degenerate_faces, 0u) << "step " << step;
+    }
+}
+
 TEST(Collapse, AFlatSheetKeepsItsOutlineToTheLastFewTriangles) {
     const Submesh submesh = submeshOf({meshes::grid(10)});
     const CollapseSequence sequence = sequenceOf(submesh);
