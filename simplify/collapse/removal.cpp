@@ -281,15 +281,15 @@ RemovalSequence planRemoval(const Scene& scene,
     auto instances = std::make_shared<std::vector<std::uint32_t>>();
     instances->reserve(order.size());
     std::vector<double> areas;
-    std::vector<double> distances;
-    GrowingGrid grid(spots);
+    std::vector<glm::dvec3> places;
     for (const std::uint32_t index : order) {
         const Member& member = members[index];
         instances->push_back(member.instance);
         removal.area_left.push_back(removal.area_left.back() + member.area);
         areas.push_back(member.area);
-        distances.push_back(grid.addAndMeasure(member.at));
+        places.push_back(member.at);
     }
+    const std::vector<double> distances = distancesToEarlier(places, spots);
     weighRemovals(removal, areas, distances, cover, meanRadius(facts, members));
     removal.order = std::move(instances);
     return removal;

@@ -75,12 +75,14 @@ std::vector<std::vector<std::uint32_t>> sizesOf(std::span<const Member> members)
 std::vector<double> costsOf(std::span<const Member> members,
                             std::span<const std::uint32_t> order,
                             const Bounds& spots) {
+    std::vector<glm::dvec3> places; // the longest-lived first
+    for (std::size_t i = order.size(); i-- > 0;)
+        places.push_back(members[order[i]].at);
+    const std::vector<double> distances = distancesToEarlier(places, spots);
     std::vector<double> costs(order.size());
-    GrowingGrid grid(spots);
-    for (std::size_t i = order.size(); i-- > 0;) {
-        const Member& member = members[order[i]];
-        const double distance = std::min(grid.addAndMeasure(member.at), spots.diagonal());
-        costs[i] = member.area * distance * distance;
+    for (std::size_t i = 0; i < costs.size(); ++i) {
+        const double distance = std::min(distances[costs.size() - 1 - i], spots.diagonal());
+        costs[i] = members[order[i]].area * distance * distance;
     }
     for (std::size_t i = 1; i < costs.size(); ++i)
         costs[i] = std::max(costs[i], costs[i - 1]);
