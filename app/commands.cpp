@@ -144,7 +144,7 @@ void run(Document& document, const SetLanes& command) {
             document.lanes.push_back(makeLane(document, algorithm));
         }
         if (!document.findLane(document.active_lane))
-            document.active_lane = document.lanes.front().id;
+            document.active_lane = startingLane(document);
     });
 }
 

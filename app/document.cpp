@@ -87,6 +87,17 @@ Lane makeLane(Document& document, const Algorithm* algorithm) {
     return lane;
 }
 
+LaneId startingLane(const Document& document) {
+    if (document.lanes.empty())
+        return kNoLane;
+    const auto rank = [](const Lane& lane) {
+        if (!lane.settings.algorithm)
+            return 2;
+        return lane.settings.algorithm->id == "ias" ? 0 : 1;
+    };
+    return std::ranges::min_element(document.lanes, {}, rank)->id;
+}
+
 void resetDocument(Document& document, LoadedScene loaded) {
     document.scene = std::move(loaded.scene);
     document.path = std::move(loaded.path);
@@ -109,7 +120,7 @@ void resetDocument(Document& document, LoadedScene loaded) {
             continue;
         document.lanes.push_back(makeLane(document, algorithm));
     }
-    document.active_lane = document.lanes.size() > 1 ? document.lanes[1].id : document.lanes[0].id;
+    document.active_lane = startingLane(document);
     ++document.revision;
     document.saved_revision = document.revision;
     ++document.scene_revision;
@@ -199,7 +210,7 @@ void restoreEdits(Document& document, const Edits& edits) {
     document.locked = edits.locked;
     document.export_options = edits.export_options;
     if (!document.findLane(document.active_lane))
-        document.active_lane = document.lanes.empty() ? kNoLane : document.lanes.front().id;
+        document.active_lane = startingLane(document);
 }
 
 } // namespace lodestone

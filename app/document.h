@@ -106,6 +106,9 @@ void resetDocument(Document& document, LoadedScene loaded);
 // algorithm has. algorithm: nullptr for Original.
 Lane makeLane(Document& document, const Algorithm* algorithm);
 
+// The lane to begin with: IAS, else the first that simplifies, else the first; kNoLane: no lane.
+LaneId startingLane(const Document& document);
+
 // World bounds of what is selected (corner boxes of its instances); empty if nothing is.
 Bounds selectionBounds(const Document& document);
 

@@ -283,11 +283,11 @@ struct Session::Impl {
         const auto& written = std::get<ExportReport>(*finished.result);
         document.last_export = path;
         document.saved_revision = revision;
-        report(document,
-               Severity::Info,
-               fmt::format("wrote {} ({} bytes)", path.string(), written.bytes));
         for (const std::string& note : written.notes)
             report(document, Severity::Info, note);
+        report(document, // last, for the newest is what is shown
+               Severity::Info,
+               fmt::format("wrote {} ({} bytes)", path.string(), written.bytes));
     }
 
     void commitMeasure(FinishedJob& finished) {

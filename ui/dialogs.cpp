@@ -61,7 +61,7 @@ constexpr std::array kInstancings = {
 std::string_view instancingHelp(Instancing instancing) {
     switch (instancing) {
     case Instancing::Auto:
-        return "of the others whichever is smallest, by submesh";
+        return "the smallest of these, by submesh";
     case Instancing::Gpu:
         return "EXT_mesh_gpu_instancing";
     case Instancing::Nodes:

@@ -79,8 +79,10 @@ std::string formatChange(double before, double after) {
 }
 
 std::string formatSeconds(double time_s) {
+    if (time_s < 0.00995)
+        return formatMilliseconds(time_s * 1e3);
     if (time_s < 0.9995)
-        return decimals(time_s, time_s < 0.0095 ? 3 : 2) + " s";
+        return decimals(time_s, 2) + " s";
     if (time_s < 60.0)
         return decimals(time_s, 1) + " s";
     const auto whole = static_cast<int>(time_s);

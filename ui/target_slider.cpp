@@ -10,6 +10,8 @@ namespace {
 
 constexpr std::string_view kTargetTip =
     "How much of the scene this lane keeps. Click on the value to type one.";
+constexpr std::string_view kMasterTip =
+    "How much of the scene every lane keeps that follows all lanes.";
 
 SliderSpec specOf(const TargetScale& scale, const Target& target, std::string_view label) {
     SliderSpec spec;
@@ -114,7 +116,9 @@ void masterSlider(const Ui& ui, const PanelInput& input, const WindowState& stat
     const TargetScale scale =
         pixels ? pixelScale()
                : targetScale(input.document, target.kind, largestBytes(input, state));
-    const SliderSpec spec = pixels ? pixelSpec(*pixels, "Master") : specOf(scale, target, "Master");
+    SliderSpec spec = pixels ? pixelSpec(*pixels, "Master") : specOf(scale, target, "Master");
+    if (!pixels)
+        spec.tooltip = kMasterTip;
     const SliderEvent event = sliderTrack(ui, spec, width);
     if (const std::optional<double> value = newValue(scale, event)) {
         if (pixels)

@@ -233,6 +233,21 @@ TEST(Commands, FirstLanesAreOriginalIasAndQuadricInTheirColours) {
     EXPECT_FALSE(document.dirty());
 }
 
+TEST(Commands, AfterAPresetTheActiveLaneSimplifies) {
+    Document document = openedDocument();
+    const auto active = [&] { return document.findLane(document.active_lane)->settings.algorithm; };
+    applyCommand(document, SetLanes{{"vt", "fass"}});
+    EXPECT_EQ(active()->id, "vt");
+    applyCommand(document, SetLanes{{"", "quadric", "ias"}});
+    ASSERT_NE(active(), nullptr);
+    EXPECT_EQ(active()->id, "ias");
+    applyCommand(document, Undo{});
+    ASSERT_NE(active(), nullptr);
+    EXPECT_EQ(active()->id, "vt");
+    applyCommand(document, SetLanes{{""}});
+    EXPECT_EQ(active(), nullptr) << "there is no other";
+}
+
 TEST(Commands, TwoLanesOfOneAlgorithmDifferInColour) {
     Document document = openedDocument();
     applyCommand(document, DuplicateLane{laneOf(document, 1).id});
