@@ -147,6 +147,7 @@ CollapseSequence joinLogs(Complex complex,
     sequence.complex = std::move(complex);
     sequence.attributes = std::move(attributes);
     sequence.attributes.values = {};
+    sequence.attributes.charts = {};
     // Cleaning (degenerate faces, doubles) is a step of its own, free of cost.
     const std::uint32_t cleaning = sequence.complex.dropped_faces > 0 ? 1 : 0;
     const LogOffsets offsets = offsetsOf(logs);
@@ -297,6 +298,8 @@ Result<std::vector<CollapseSequence>> buildSequences(std::span<const SequenceReq
         build.attributes = gatherAttributes(*requests[b].submesh, build.complex);
         build.attributes.extremes =
             extremeVertices(build.complex, build.attributes, requests[b].postures);
+        if (options.attributes.texcoord > 0.0)
+            build.attributes.charts = gatherCharts(build.complex, build.attributes);
         build.logs.resize(build.complex.componentCount());
         build.cost_scales.resize(build.logs.size());
         build.length_scales.resize(build.logs.size());

@@ -235,6 +235,36 @@ WedgeAttributes gatherAttributes(const Submesh& submesh, const Complex& complex)
     return all;
 }
 
+std::vector<WedgeAttributes::Charts> gatherCharts(const Complex& complex,
+                                                  const WedgeAttributes& attributes) {
+    std::vector<WedgeAttributes::Charts> charts(attributes.primitives.size());
+    bool any = false;
+    for (std::size_t p = 0; p < charts.size(); ++p) {
+        const std::vector<Slot>& slots = attributes.primitives[p].slots;
+        const auto slot = std::ranges::find_if(slots, [](const Slot& one) {
+            return one.kind == Kind::Texcoord && one.components == 2;
+        });
+        if (slot == slots.end())
+            continue;
+        any = true;
+        charts[p].offset = slot->offset;
+        std::vector<ChartMask::Triangle> triangles;
+        triangles.reserve(complex.face_begin[p + 1] - complex.face_begin[p]);
+        for (std::uint32_t f = complex.face_begin[p]; f < complex.face_begin[p + 1]; ++f) {
+            ChartMask::Triangle& triangle = triangles.emplace_back();
+            for (std::size_t k = 0; k < 3; ++k) {
+                const float* at = attributes.values.data() +
+                                  std::size_t{complex.faces[f][k]} * attributes.size + slot->offset;
+                triangle[k] = {at[0], at[1]};
+            }
+        }
+        charts[p].mask = ChartMask(triangles);
+    }
+    if (!any)
+        charts.clear();
+    return charts;
+}
+
 void blendSkin(float* into,
                const float* from,
                float t,

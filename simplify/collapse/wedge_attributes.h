@@ -1,5 +1,6 @@
 #pragma once
 // The attributes of a submesh as the collapse engine keeps them: floats of wedges.
+#include "simplify/collapse/chart_mask.h"
 #include "simplify/collapse/complex.h"
 
 #include <array>
@@ -57,10 +58,24 @@ struct WedgeAttributes {
 
     std::vector<std::uint32_t> extremes; // welded vertices that keep their place, rising
     double area = 0.0;                   // of all faces
+
+    // What a primitive's first texture coordinates cover.
+    struct Charts {
+        ChartMask mask;
+        std::uint32_t offset = 0; // of the coordinates among a wedge's values
+    };
+
+    std::vector<Charts> charts; // [primitives]; empty: none, or not looked at
 };
 
 // Layout and values of a submesh's attributes.
 WedgeAttributes gatherAttributes(const Submesh& submesh, const Complex& complex);
+
+// [primitives] Of those without texture coordinates a mask that holds everything; empty if none has
+// any.
+// O(faces + primitives).
+std::vector<WedgeAttributes::Charts> gatherCharts(const Complex& complex,
+                                                  const WedgeAttributes& attributes);
 
 // Moves the influences at `into` by t, 0..1, towards those at `from`: joints of both, the
 // strongest kept, weights summing to 1. values: of both wedges, offsets from sets.

@@ -80,17 +80,35 @@ Quadric ComponentMesh::mergeWedgeQuadrics(std::uint32_t a, std::uint32_t b, Floa
     return gained;
 }
 
-// Sets the values that count to the best ones where the wedge lies now.
+// Sets the values that count to the best ones where the wedge lies now. Texture coordinates that
+// would lie outside of all charts stay as blended: out there the texture shows anything.
 void ComponentMesh::takeBestValues(std::uint32_t wedge) {
     float* values = values_.data() + std::size_t{wedge} * attributes_.size;
-    const std::vector<CountedValue>& counted = counted_[wedge_primitive_[wedge]];
+    const std::uint32_t primitive = wedge_primitive_[wedge];
+    const std::vector<CountedValue>& counted = counted_[primitive];
+    const WedgeAttributes::Charts* charts =
+        attributes_.charts.empty() || !attributes_.charts[primitive].mask.covers()
+            ? nullptr
+            : &attributes_.charts[primitive];
     constexpr float kOpposite2 = 1e-6f; // opposite directions cancel: then the blended one stays
     for (std::size_t i = 0; i < counted.size();) {
         const auto best = [&](std::size_t at) {
             return wedge_quadrics_.value(wedge, at) / counted[at].scale;
         };
+        const auto best_within = [&](std::size_t at) {
+            return std::clamp(best(at), counted[at].low, counted[at].high);
+        };
+        if (charts && counted[i].offset == charts->offset) {
+            const glm::vec2 coordinates(best_within(i), best_within(i + 1));
+            if (charts->mask.holds(coordinates)) {
+                values[counted[i].offset] = coordinates.x;
+                values[counted[i].offset + 1] = coordinates.y;
+            }
+            i += 2;
+            continue;
+        }
         if (!counted[i].unit) {
-            values[counted[i].offset] = std::clamp(best(i), counted[i].low, counted[i].high);
+            values[counted[i].offset] = best_within(i);
             ++i;
             continue;
         }
