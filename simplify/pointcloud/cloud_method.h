@@ -40,6 +40,8 @@ struct CloudMethod {
                 const Complex& complex,
                 const CloudSettings& settings,
                 const JobContext& job) = nullptr;
+    // What it never takes away, for the note on a target it cannot reach.
+    std::string_view keeps = "at least 4 a submesh; no face turns over unless 'literal' is set";
 };
 
 // VT, FAD, IVDD, SS, VTD, FASS.

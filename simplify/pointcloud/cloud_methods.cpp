@@ -57,8 +57,13 @@ void runFaceAngleScanning(CloudSurface& surface,
 
 const CloudMethod kVertexTriplexMethod{
     MainParameter::Coverage, "coverage", 8.0, 0, {1.0, 2.5}, runVertexTriplex};
-const CloudMethod kFaceAngleMethod{
-    MainParameter::AngleDeg, "angle", 180.0, 56, {15.0, 60.0}, runFaceAngle};
+const CloudMethod kFaceAngleMethod{MainParameter::AngleDeg,
+                                   "angle",
+                                   180.0,
+                                   56,
+                                   {15.0, 60.0},
+                                   runFaceAngle,
+                                   "corners stay, and vertices where a border bends"};
 const CloudMethod kIntervertexDistanceMethod{
     MainParameter::DistancePct, "distance", 100.0, 0, {1.0, 2.2}, runMerging<intervertexDistance>};
 const CloudMethod kSphericalScanningMethod{

@@ -102,7 +102,20 @@ void MergeBuilder::mergeAnyway(std::span<const std::uint32_t> roots, const glm::
     merges_.positions[kept] = place;
 }
 
+// Centres of symmetric neighbours can be one place, in the file's floats at least: then they are
+// one vertex, or a face between them would be left without area.
+void MergeBuilder::mergeAtOnePlace() {
+    for (std::size_t f = 0; f < corners_.size(); ++f)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Triangle roots = rootsOf(f);
+            const std::array pair{roots[k], roots[(k + 1) % 3]};
+            if (pair[0] != pair[1] && glm::vec3(position(pair[0])) == glm::vec3(position(pair[1])))
+                mergeAnyway(pair, position(std::min(pair[0], pair[1])));
+        }
+}
+
 Merges MergeBuilder::finish() {
+    mergeAtOnePlace();
     for (std::uint32_t v = 0; v < merges_.target.size(); ++v)
         merges_.target[v] = find(v);
     return std::move(merges_);

@@ -52,6 +52,7 @@ public:
     Merges finish();
 
 private:
+    void mergeAtOnePlace();
     void linkFaces(const JobContext& job);
     // Takes a face that has collapsed out of a root's list; previous: the link before it or kNone.
     void unlink(std::uint32_t root, std::uint32_t link, std::uint32_t previous);

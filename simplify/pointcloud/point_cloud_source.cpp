@@ -314,7 +314,8 @@ std::string PointCloudSource::whyMissed() const {
         return start + std::string(options_.method->main_id) +
                " is set; 0 lets it follow the target";
     return start + std::to_string(trianglesAt(lastPosition())) +
-           " triangles are the fewest that this method leaves (at least 4 a submesh)";
+           " triangles are the fewest that this method leaves (" +
+           std::string(options_.method->keeps) + ")";
 }
 
 Resolved PointCloudSource::resolveWithin(const Target& target,
