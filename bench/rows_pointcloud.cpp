@@ -2,6 +2,7 @@
 
 #include "bench/frame_turns.h"
 #include "bench/quality.h"
+#include "bench/rows_live.h"
 #include "bench/table.h"
 #include "bench/timing.h"
 #include "scene/expand.h"
@@ -285,7 +286,11 @@ std::vector<Part> allParts(PointCloudExtent extent) {
             {"Six methods at 20 % of the triangles, our bunny", own("bunny"), writeEqual},
             {"Six methods at 20 % of the triangles, chair", own("chair"), writeEqual},
             {"Six methods at 20 % of the triangles, maple", own("maple"), writeEqual},
-            {"Six methods at 20 % of the triangles, village", own("village"), writeEqual}};
+            {"Six methods at 20 % of the triangles, village", own("village"), writeEqual},
+            {"Six methods while a slider moves, Stanford bunny", stanford, writeLiveSliders},
+            {"Six methods while a slider moves, our bunny", own("bunny"), writeLiveSliders},
+            {"Six methods while a slider moves, maple", own("maple"), writeLiveSliders},
+            {"Six methods while a slider moves, village", own("village"), writeLiveSliders}};
 }
 
 } // namespace

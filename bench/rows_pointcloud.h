@@ -1,5 +1,6 @@
 #pragma once
-// The six point-cloud methods: the paper's protocol, and all of them at equal triangles.
+// The six point-cloud methods: the paper's protocol, all of them at equal triangles, and following
+// a slider.
 #include "bench/figures.h"
 
 #include <iosfwd>
