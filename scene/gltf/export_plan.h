@@ -71,6 +71,19 @@ struct GroupPlan {
     std::uint32_t rows = 0;
     bool folded = false; // made of nodes; otherwise the file's own
     std::vector<GroupAttribute> attributes;
+    // What is stored of these in LODs that keep a third of the submesh's triangles or fewer:
+    // rotations in 8 bits, as by coarseAttributes(). Empty where a point of the submesh as it was
+    // would move by more than 2^-10 of the diagonal.
+    std::vector<GroupAttribute> coarse;
+
+    // How attributes[a] is stored.
+    const GroupAttribute& stored(std::size_t a, bool coarsely) const {
+        if (coarsely)
+            for (const GroupAttribute& attribute : coarse)
+                if (attribute.key == attributes[a].key)
+                    return attribute;
+        return attributes[a];
+    }
 };
 
 struct InstancePlan {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <numeric>
 
 namespace lodestone {
@@ -38,6 +39,56 @@ double angleBetween(const glm::dquat& q, const ShortQuat& shorts) {
     return 2.0 * std::atan2(glm::length(glm::dvec3(turn.x, turn.y, turn.z)), std::abs(turn.w));
 }
 
+using ByteQuat = std::array<std::int8_t, 4>;
+
+// A rotation in bytes and what is wrong with it.
+struct RoundedTurn {
+    ByteQuat bytes{};
+    glm::dquat turn{1.0, 0.0, 0.0, 0.0};
+    double angle = std::numeric_limits<double>::infinity(); // radians
+    // A viewer may not see to it that the length is 1. Then the turn R becomes
+    // 1 + length^2 (R - 1): a point at distance 1 is off by that.
+    double stretch = 0.0;
+
+    double off() const { return angle + stretch; }
+};
+
+// at: on the grid of 1/127.
+RoundedTurn roundedTo(const glm::dquat& q, const glm::dvec4& at) {
+    constexpr double kMost = 127.0;
+    RoundedTurn rounded;
+    const double length = glm::length(at) / kMost;
+    if (!(length > 0.0))
+        return rounded;
+    for (int c = 0; c < 4; ++c)
+        rounded.bytes[static_cast<std::size_t>(c)] = static_cast<std::int8_t>(at[c]);
+    rounded.turn = glm::normalize(glm::dquat(at.w, at.x, at.y, at.z));
+    const double apart = 0.5 * glm::length(rounded.turn - q);
+    rounded.angle = 4.0 * std::asin(std::min(1.0, apart));
+    rounded.stretch =
+        2.0 * glm::length(glm::dvec3(q.x, q.y, q.z)) * std::abs(length * length - 1.0);
+    return rounded;
+}
+
+// The one of the sixteen neighbours on the grid that is off least.
+RoundedTurn nearestInBytes(const glm::dquat& q) {
+    constexpr double kMost = 127.0;
+    const glm::dvec4 below = glm::floor(glm::dvec4(q.x, q.y, q.z, q.w) * kMost);
+    RoundedTurn best;
+    for (unsigned corner = 0; corner < 16; ++corner) {
+        const glm::dvec4 step(corner & 1U, corner >> 1U & 1U, corner >> 2U & 1U, corner >> 3U & 1U);
+        const RoundedTurn rounded = roundedTo(q, glm::clamp(below + step, -kMost, kMost));
+        if (rounded.off() < best.off())
+            best = rounded;
+    }
+    return best;
+}
+
+double largestOf(const glm::dvec3& scale) {
+    const glm::dvec3 size = glm::abs(scale);
+    return std::max({size.x, size.y, size.z});
+}
+
 // The lowest 21 bits, two zeros before each.
 std::uint64_t spread(std::uint64_t bits) {
     bits &= 0x1FFFFF;
@@ -65,9 +116,7 @@ GroupAttribute rotationAttribute(std::span<const Trs> rows, const RowReach& reac
         const glm::dquat& q = trs.rotation;
         floats.emplace_back(q.x, q.y, q.z, q.w);
         shorts.push_back(toShorts(q));
-        const glm::dvec3 scale = glm::abs(trs.scale);
-        const double moved =
-            angleBetween(q, shorts.back()) * reach.distance * std::max({scale.x, scale.y, scale.z});
+        const double moved = angleBetween(q, shorts.back()) * reach.distance * largestOf(trs.scale);
         fits = fits && moved <= reach.tolerance;
     }
     if (fits)
@@ -76,6 +125,30 @@ GroupAttribute rotationAttribute(std::span<const Trs> rows, const RowReach& reac
                 8,
                 toBytes(shorts)};
     return {"\"ROTATION\":", "\"componentType\":5126,\"type\":\"VEC4\"", 16, toBytes(floats)};
+}
+
+std::vector<GroupAttribute> coarseAttributes(std::span<const Trs> rows, const RowReach& reach) {
+    std::vector<ByteQuat> rotations;
+    std::vector<glm::vec3> translations;
+    for (const Trs& trs : rows) {
+        const RoundedTurn rounded = nearestInBytes(trs.rotation);
+        const double moved = rounded.angle * reach.radius + rounded.stretch * reach.distance;
+        if (moved * largestOf(trs.scale) > reach.tolerance)
+            return {};
+        const glm::dvec3 center = trs.scale * reach.center;
+        rotations.push_back(rounded.bytes);
+        translations.emplace_back(trs.translation + trs.rotation * center - rounded.turn * center);
+    }
+    std::vector<GroupAttribute> attributes;
+    attributes.push_back({"\"TRANSLATION\":",
+                          "\"componentType\":5126,\"type\":\"VEC3\"",
+                          12,
+                          toBytes(translations)});
+    attributes.push_back({"\"ROTATION\":",
+                          "\"componentType\":5120,\"normalized\":true,\"type\":\"VEC4\"",
+                          4,
+                          toBytes(rotations)});
+    return attributes;
 }
 
 double takeCommonScale(std::span<Trs> rows) {

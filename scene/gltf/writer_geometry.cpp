@@ -231,7 +231,8 @@ rowBytes(const ExportPlan& plan, const Layout& layout, const Lod& lod, std::uint
             rows.push_back(plan.instances[i].row);
     });
     std::ranges::sort(rows);
-    for (const GroupAttribute& attribute : from.attributes) {
+    for (std::size_t a = 0; a < from.attributes.size(); ++a) {
+        const GroupAttribute& attribute = from.stored(a, layout.groups[group].coarse);
         std::vector<std::byte> bytes;
         for (const std::uint32_t row : rows) {
             const auto at =

@@ -23,6 +23,8 @@ constexpr double kGroupAccessorBytes = 115.0;
 constexpr double kNodeExtraBytes = 22.0;
 // Share of the scene's diagonal that a rounded rotation may move a point by.
 constexpr double kRotationTolerance = 0x1p-18;
+// The same where a third of the submesh's triangles is left: simplifying has moved them farther.
+constexpr double kCoarseRotationTolerance = 0x1p-10;
 // Below this many rows a group inside a moving parent is not worth its node.
 constexpr std::uint32_t kFewestRows = 4;
 
@@ -115,21 +117,40 @@ private:
             group.attributes.push_back(std::move(attribute));
         }
         std::vector<Trs> rows = rowTransforms(columns, group.rows);
+        double holder = largestScale(scene_.nodes[scene_node].world);
         if (regrids)
-            regrid(group, rows, entry);
+            holder *= regrid(group, rows, entry, holder);
         else if (std::ranges::any_of(columns, [](const RowColumn& column) {
                      return column.name == "ROTATION" &&
                             column.values.type == ComponentType::Float32;
                  }))
-            group.attributes.push_back(rotationAttribute(rows, reachOf(group.submesh, 1.0)));
+            group.attributes.push_back(rotationAttribute(rows, reachOf(group.submesh, holder)));
+        planCoarse(group, rows, holder);
+    }
+
+    // Filters of packed rows do better than bytes.
+    void planCoarse(GroupPlan& group, std::span<const Trs> rows, double node_scale) const {
+        constexpr double kWider = kCoarseRotationTolerance / kRotationTolerance;
+        const auto has = [&](std::string_view key, std::size_t row_bytes) {
+            return std::ranges::any_of(group.attributes, [&](const GroupAttribute& attribute) {
+                return attribute.key == key && attribute.row_bytes >= row_bytes;
+            });
+        };
+        if (plan_.options.compression == Compression::Meshopt ||
+            !has("\"TRANSLATION\":", sizeof(glm::vec3)) || !has("\"ROTATION\":", 8))
+            return;
+        RowReach reach = reachOf(group.submesh, node_scale);
+        reach.tolerance *= kWider;
+        group.coarse = coarseAttributes(rows, reach);
     }
 
     static bool isFloatRotation(const std::string& name, const json& accessor) {
         return name == "ROTATION" && accessor["componentType"] == 5126;
     }
 
-    // The rows of a node of the file for positions on a grid.
-    void regrid(GroupPlan& group, std::vector<Trs>& rows, const json& entry) {
+    // The rows of a node of the file for positions on a grid. Returns the scale that went from them
+    // into the node.
+    double regrid(GroupPlan& group, std::vector<Trs>& rows, const json& entry, double holder) {
         for (Trs& row : rows)
             row = composed(row, plan_.grids[group.submesh]);
         double common = 1.0;
@@ -139,10 +160,11 @@ private:
                 plan_.nodes[group.node].body = Fragment(dumpMembers(scaledBody(entry, common)));
         }
         std::vector<GroupAttribute> transforms =
-            rowAttributes(rows, reachOf(group.submesh, common));
+            rowAttributes(rows, reachOf(group.submesh, holder * common));
         group.attributes.insert(group.attributes.end(),
                                 std::make_move_iterator(transforms.begin()),
                                 std::make_move_iterator(transforms.end()));
+        return common;
     }
 
     static json scaledBody(const json& entry, double factor) {
@@ -169,15 +191,26 @@ private:
                 row.scale * grid.step};
     }
 
+    // How far a transform stretches along an axis, at most; 1 where it has none.
+    static double largestScale(const glm::dmat4& transform) {
+        double largest = 0.0;
+        for (int column = 0; column < 3; ++column)
+            largest = std::max(largest, glm::length(glm::dvec3(transform[column])));
+        return largest > 0.0 ? largest : 1.0;
+    }
+
     // What rotations of the submesh's rows may move; a row's scale holds the grid's step, or a
-    // scale of the node around them does.
+    // scale of the nodes around them does.
     RowReach reachOf(std::uint32_t submesh, double node_scale) const {
         const PositionGrid& grid = plan_.grids[submesh];
         const Bounds box = localBounds(scene_.submeshes[submesh]);
         const glm::dvec3 far =
             glm::max(glm::abs(box.min - grid.offset), glm::abs(box.max - grid.offset));
-        return {glm::length(far) / (grid.step > 0.0 ? grid.step : 1.0),
-                plan_.diagonal * kRotationTolerance / node_scale};
+        const double step = grid.step > 0.0 ? grid.step : 1.0;
+        return {glm::length(far) / step,
+                plan_.diagonal * kRotationTolerance / node_scale,
+                (box.center() - grid.offset) / step,
+                0.5 * box.diagonal() / step};
     }
 
     // A row as a node of its own, below the node that held it.
@@ -284,7 +317,12 @@ private:
             const std::string text = floatText(common);
             node.body = Fragment("\"scale\":[" + text + "," + text + "," + text + "]");
         }
-        group.attributes = rowAttributes(transforms, reachOf(submesh, common));
+        const std::uint32_t holder =
+            scene_.nodes[scene_.instances[members.front()].node].parent; // of all members
+        const double around =
+            parent == kNone ? common : common * largestScale(scene_.nodes[holder].world);
+        group.attributes = rowAttributes(transforms, reachOf(submesh, around));
+        planCoarse(group, transforms, around);
         node.parent = parent;
         node.mesh = plan_.submeshes[submesh].mesh;
         node.group = group_index;
@@ -358,8 +396,9 @@ void estimate(ExportPlan& plan, SubmeshPlan& submesh) {
         submesh.sole_group = *groups.begin();
     for (const std::uint32_t g : groups) {
         double row_bytes = 0.0;
-        for (const GroupAttribute& attribute : plan.groups[g].attributes) {
-            row_bytes += static_cast<double>(attribute.row_bytes);
+        const GroupPlan& group = plan.groups[g];
+        for (std::size_t a = 0; a < group.attributes.size(); ++a) {
+            row_bytes += static_cast<double>(group.stored(a, true).row_bytes);
             submesh.fold_fixed_bytes += kGroupAccessorBytes;
         }
         submesh.fold_fixed_bytes += kGroupNodeBytes;

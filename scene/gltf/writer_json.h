@@ -120,7 +120,7 @@ private:
             text(",\"count\":");
             number(to.rows);
             text(",");
-            text(plan_.groups[group].attributes[a].format);
+            text(plan_.groups[group].stored(a, to.coarse).format);
             text("}");
         }
     }

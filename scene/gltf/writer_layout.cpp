@@ -127,6 +127,19 @@ private:
         });
     }
 
+    // Whether no more than a third of a submesh's triangles is left.
+    bool isCoarse(std::uint32_t s) const {
+        const LodShape::SubmeshShape& shape = shape_.submeshes[s];
+        const std::vector<PrimitivePlan>& full = plan_.meshes[plan_.submeshes[s].mesh].primitives;
+        std::uint64_t left = 0;
+        std::uint64_t all = 0;
+        for (std::size_t p = 0; p < full.size(); ++p) {
+            left += shape.primitives[p].indices;
+            all += full[p].full.indices;
+        }
+        return shape.changed && 3 * left <= all;
+    }
+
     void placeGroup(std::uint32_t g) {
         GroupLayout& to = layout_.groups[g];
         if (to.rows == 0)
@@ -134,10 +147,12 @@ private:
         layout_.uses_rows = true;
         layout_.draws[plan_.groups[g].node] = true;
         to.first_accessor = next_accessor_;
+        const GroupPlan& group = plan_.groups[g];
+        to.coarse = !group.coarse.empty() && isCoarse(group.submesh);
         ViewLayout& view = layout_.views[kInstanceClass];
-        for (const GroupAttribute& attribute : plan_.groups[g].attributes) {
+        for (std::size_t a = 0; a < group.attributes.size(); ++a) {
             to.offset_bytes.push_back(view.size_bytes);
-            view.size_bytes += paddedTo4(to.rows * attribute.row_bytes);
+            view.size_bytes += paddedTo4(to.rows * group.stored(a, to.coarse).row_bytes);
             ++next_accessor_;
         }
     }

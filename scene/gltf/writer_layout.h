@@ -24,6 +24,7 @@ struct ViewLayout {
 struct GroupLayout {
     std::uint32_t rows = 0;                  // kept; 0: not written
     std::uint32_t first_accessor = 0;        // one for each attribute
+    bool coarse = false;                     // as GroupPlan::coarse
     std::vector<std::uint64_t> offset_bytes; // [attributes] in the instance view
 };
 

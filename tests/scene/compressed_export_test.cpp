@@ -208,6 +208,59 @@ TEST_F(CompressedExport, RotationsOfRowsHave16BitsUnlessThatMovesFarPoints) {
     EXPECT_EQ(rotationType(documentOf(write(*far, raw, "far.glb"))), 5126);
 }
 
+// The cubes with that many of their twelve triangles.
+Lod withTriangles(const Scene& scene, std::size_t triangles) {
+    Lod lod = fullLod(scene);
+    for (LodSubmesh& submesh : lod.submeshes) {
+        auto geometry = std::make_shared<Geometry>(*submesh.primitives[0]);
+        geometry->indices.resize(3 * triangles);
+        submesh.primitives[0] = std::move(geometry);
+    }
+    return lod;
+}
+
+TEST_F(CompressedExport, RotationsOfRowsHave8BitsOnceAThirdOfTheirSubmeshIsLeft) {
+    const ScenePtr scene = scatteredCubes(40);
+    for (const Compression compression : {Compression::None, Compression::Quantize})
+        for (const auto& [triangles, type] : {std::pair{5, 5122}, {4, 5120}}) {
+            const ExportOptions options{Instancing::Gpu, Container::Glb, compression};
+            const Lod lod = withTriangles(*scene, static_cast<std::size_t>(triangles));
+            const fs::path path = folder_ / "coarse.glb";
+            ASSERT_TRUE(exportScene(*scene, lod, path, options));
+            EXPECT_EQ(rotationType(documentOf(path)), type);
+            EXPECT_EQ(ByteModel(scene, options).bytes(shapeOf(*scene, lod)), fs::file_size(path));
+            const auto again = importScene(path, {});
+            ASSERT_TRUE(again);
+            EXPECT_LE(greatestGap(**again, *scene), 0x1p-10 * worldBounds(*scene).diagonal());
+        }
+}
+
+TEST_F(CompressedExport, CoarseRotationsLeaveTheMiddleOfAMeshWhereItIs) {
+    const ScenePtr cubes = scatteredCubes(40);
+    std::vector<glm::dmat4> transforms;
+    for (const Instance& instance : cubes->instances)
+        transforms.push_back(instance.transform);
+    Geometry off = *fixtures::cubeGeometry(); // off the origin that they turn about
+    for (glm::vec3& position : off.positions)
+        position += glm::vec3(2.0f, 0.0f, 0.0f);
+    const ScenePtr scene =
+        fixtures::sceneOf(std::make_shared<const Geometry>(std::move(off)), transforms);
+    const fs::path path = folder_ / "off.glb";
+    ASSERT_TRUE(
+        exportScene(*scene, withTriangles(*scene, 4), path, {Instancing::Gpu, Container::Glb, {}}));
+    EXPECT_EQ(rotationType(documentOf(path)), 5120);
+    const auto again = importScene(path, {});
+    ASSERT_TRUE(again);
+    const glm::dvec4 middle(localBounds(scene->submeshes[0]).center(), 1.0);
+    for (const Instance& instance : scene->instances) {
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const Instance& other : (*again)->instances)
+            nearest = std::min(
+                nearest, glm::distance(instance.transform * middle, other.transform * middle));
+        EXPECT_LE(nearest, 1e-6 * worldBounds(*scene).diagonal());
+    }
+}
+
 TEST_F(CompressedExport, NodesWithADutyOfTheirOwnKeepTheirTransform) {
     SceneBuilder builder("duty");
     Submesh submesh;
