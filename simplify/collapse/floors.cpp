@@ -52,7 +52,7 @@ std::uint32_t floorStep(const CollapseSequence& sequence,
         return sequence.recordedSteps();
     const auto clean = static_cast<std::uint32_t>(sequence.complex.faces.size());
     const std::uint32_t limit = lastStepWith(sequence, std::min(floors.min_triangles, clean));
-    if (instance_count < 2 || limit == 0)
+    if (instance_count < floors.min_crowd || limit == 0)
         return limit;
     const ShapeMeasure whole = measureAt(sequence, submesh, 0);
     const auto passes = [&](std::uint32_t step) {

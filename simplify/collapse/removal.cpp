@@ -176,8 +176,9 @@ double meanOfFirstHalf(std::span<const double> distances) {
     return sum / static_cast<double>(distances.size() - begin);
 }
 
-// [instances] Growth that no survivor may exceed while the first i of order are left. Unlike sizes:
-// the largest must not swell by more than the place of what is gone, to make up for dwarfs.
+// [instances] To what growth the removal of order[i] may lead, if it was less before. Unlike sizes:
+// the largest must not swell by more than the place of what goes, to make up for dwarfs. Neither
+// rising nor falling along the order.
 std::vector<double> growthLimits(std::span<const double> areas,
                                  std::span<const double> distances,
                                  double mean_area,

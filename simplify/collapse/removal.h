@@ -29,8 +29,9 @@ constexpr double kMaxGrowth = 5.0;
 
 // Growth of the survivors' size when `kept` of all instances are left: sqrt(area of all / kept).
 // Where a cover is nearer than the sisters it is bounded by 1 + cover / radius: a window must not
-// outgrow its wall to make up for others. Of unlike sizes the largest that is left grows by no more
-// than the distance to the nearest of what is left.
+// outgrow its wall to make up for others. Of unlike sizes each removal may make the largest that is
+// left swell by no more than the distance from what goes to the nearest of what is left; growth
+// never falls, so that a wider gap before may have let it swell more.
 double growthAt(const RemovalSequence& removal, std::uint32_t kept);
 
 // Whether the paper's rule thins out a submesh: it has a twentieth of all instances, or 1,000.

@@ -50,8 +50,11 @@ struct CollapseSequence {
 struct FloorOptions {
     bool enabled = true;
     std::uint32_t min_triangles = 4; // or all it has, if fewer
-    double min_extent = 0.8;         // of every axis but a thin one, while it has several instances
-    double min_area = 0.5;           // while it has several instances
+    double min_extent = 0.8;         // of every axis but a thin one, while it is a crowd
+    double min_area = 0.5;           // while it is a crowd
+    // Instances that make a crowd, of which some can go while others grow. Of fewer each is missed
+    // more than its shape: they are collapsed on.
+    std::uint32_t min_crowd = 16;
 };
 
 struct SequenceRequest {

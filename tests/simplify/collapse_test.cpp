@@ -342,10 +342,16 @@ TEST(Collapse, AFarComponentDoesNotSetTheOrderOfTheRest) {
     EXPECT_LT(differing, a.face_death.size() / 50);
 }
 
+TEST(Collapse, FewInstancesAreCollapsedOn) {
+    const Submesh submesh = submeshOf({meshes::sphere(12, 16)});
+    const CollapseSequence sequence = sequenceOf(submesh, {}, {}, 15);
+    EXPECT_EQ(sequence.facesAt(sequence.step_count), 4u);
+}
+
 TEST(Collapse, ManyInstancesKeepExtentAndArea) {
     const Submesh submesh = submeshOf({meshes::sphere(12, 16)});
     const Shape whole = meshes::shapeOf(std::array{submesh.primitives[0].geometry});
-    const CollapseSequence sequence = sequenceOf(submesh, {}, {}, 5);
+    const CollapseSequence sequence = sequenceOf(submesh, {}, {}, 16);
     const Shape least = meshes::shapeOf(readAt(sequence, submesh, sequence.step_count));
     for (int axis = 0; axis < 3; ++axis)
         EXPECT_GE(least.bounds.size()[axis], 0.799 * whole.bounds.size()[axis]);
@@ -359,7 +365,7 @@ TEST(Collapse, ASaggingLeafOfManyInstancesMayBecomeFlat) {
     for (glm::vec3& p : leaf->positions)
         p.z = 0.02f * (p.x * (1.0f - p.x) + p.y * (1.0f - p.y));
     const Submesh submesh = submeshOf({leaf});
-    const CollapseSequence sequence = sequenceOf(submesh, {}, {}, 5);
+    const CollapseSequence sequence = sequenceOf(submesh, {}, {}, 16);
     const Shape least = meshes::shapeOf(readAt(sequence, submesh, sequence.step_count));
     EXPECT_EQ(least.faces, 4u);
     EXPECT_GE(least.bounds.size().x, 0.799);
