@@ -258,21 +258,6 @@ bool runWork(Work& work, const Scene& scene, const JobContext& job) {
     return !job.stopRequested();
 }
 
-void countLod(Lod& lod) {
-    for (const LodSubmesh& submesh : lod.submeshes) {
-        std::uint64_t triangles = 0;
-        for (const GeometryPtr& geometry : submesh.primitives)
-            triangles += geometry->triangleCount();
-        lod.unique_triangles += triangles;
-        lod.triangles += triangles * submesh.kept_instances;
-        lod.instances += submesh.kept_instances;
-    }
-}
-
-} // namespace
-
-namespace {
-
 // A skeleton with what no expansion touches.
 Expansion beginExpansion(const Scene& scene) {
     Expansion expansion;
@@ -288,6 +273,20 @@ Expansion beginExpansion(const Scene& scene) {
 }
 
 } // namespace
+
+void countLod(Lod& lod) {
+    lod.triangles = 0;
+    lod.unique_triangles = 0;
+    lod.instances = 0;
+    for (const LodSubmesh& submesh : lod.submeshes) {
+        std::uint64_t triangles = 0;
+        for (const GeometryPtr& geometry : submesh.primitives)
+            triangles += geometry->triangleCount();
+        lod.unique_triangles += triangles;
+        lod.triangles += triangles * submesh.kept_instances;
+        lod.instances += submesh.kept_instances;
+    }
+}
 
 std::vector<bool> mergingSubmeshes(const Scene& scene) {
     std::vector<bool> merging;

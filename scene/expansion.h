@@ -48,6 +48,9 @@ LodShape expandShape(const Expansion& expansion, const Scene& scene, const LodSh
 Result<Lod>
 expandLod(const Expansion& expansion, const Scene& scene, const Lod& lod, const JobContext& job);
 
+// Counts what the submeshes of a LOD hold.
+void countLod(Lod& lod);
+
 // Vertices of one part transformed and appended at first_vertex and first_index of `to`, whose
 // arrays are large enough. Different places of one geometry can be filled at the same time.
 struct ExpandPlace {

@@ -2,6 +2,7 @@
 
 #include "scene/lod.h"
 #include "scene/result.h"
+#include "scene/transformed_box.h"
 
 #include <algorithm>
 #include <cassert>
@@ -203,18 +204,6 @@ bool contains(const Bounds& outer, const Bounds& inner) {
 }
 
 // A box around a transformed box.
-Bounds transformedBox(const glm::dmat4& transform, const Bounds& box) {
-    const glm::dvec3 center(transform * glm::dvec4(box.center(), 1.0));
-    const glm::dvec3 half = box.size() * 0.5;
-    glm::dvec3 reach(0.0);
-    for (int axis = 0; axis < 3; ++axis)
-        reach += glm::abs(glm::dvec3(transform[axis])) * half[axis];
-    Bounds bounds;
-    bounds.add(center - reach);
-    bounds.add(center + reach);
-    return bounds;
-}
-
 // Bounds of every instanced vertex that lies within `limit` of `origin` (no limit if negative).
 // Only instances whose box sticks out of the bounds so far are looked at closely: a few in a
 // hundred.

@@ -170,9 +170,12 @@ Result<Lod> StoragePlan::storedLod(const Lod& lod, std::size_t way) const {
         if (!merged[s])
             parts.submeshes[s].kept_instances = 0;
     Result<Lod> to = expandLod(*expansion_, scene_, parts, {});
-    for (std::size_t s = 0; to && s < merged.size(); ++s)
+    if (!to)
+        return to;
+    for (std::size_t s = 0; s < merged.size(); ++s)
         if (!merged[s])
             to->submeshes[s] = lod.submeshes[s];
+    countLod(*to);
     return to;
 }
 

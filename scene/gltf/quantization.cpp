@@ -4,6 +4,7 @@
 #include "scene/gltf/source_document.h"
 #include "scene/gltf/writer_references.h"
 #include "scene/scene_builder.h"
+#include "scene/transformed_box.h"
 
 #include <algorithm>
 #include <array>
@@ -160,12 +161,11 @@ double boxDiagonal(const Scene& scene) {
     Bounds world;
     for (const Instance& instance : scene.instances) {
         const Bounds& box = local[instance.submesh];
-        for (int corner = 0; corner < 8 && !box.empty; ++corner) {
-            const glm::dvec3 at(corner & 1 ? box.max.x : box.min.x,
-                                corner & 2 ? box.max.y : box.min.y,
-                                corner & 4 ? box.max.z : box.min.z);
-            world.add(glm::dvec3(instance.transform * glm::dvec4(at, 1.0)));
-        }
+        if (box.empty)
+            continue;
+        const Bounds placed = transformedBox(instance.transform, box);
+        world.add(placed.min);
+        world.add(placed.max);
     }
     return world.empty ? 0.0 : world.diagonal();
 }

@@ -168,7 +168,8 @@ void CarriedData::packSparse(json& accessor) {
     }
 }
 
-std::uint32_t CarriedData::accessor(std::uint32_t source_accessor, Use use) {
+template <class PlaceData>
+std::uint32_t CarriedData::carry(std::uint32_t source_accessor, const PlaceData& place_data) {
     if (const auto known = accessor_numbers_.find(source_accessor);
         known != accessor_numbers_.end())
         return known->second;
@@ -177,7 +178,7 @@ std::uint32_t CarriedData::accessor(std::uint32_t source_accessor, Use use) {
         return kNone;
     json entry = (*list)[source_accessor];
     if (entry.contains("bufferView"))
-        placePacked(entry, use, packElements(source_, entry).bytes);
+        place_data(entry);
     else
         entry.erase("byteOffset");
     if (entry.contains("sparse") && entry["sparse"].is_object())
@@ -186,17 +187,13 @@ std::uint32_t CarriedData::accessor(std::uint32_t source_accessor, Use use) {
     return accessor_numbers_[source_accessor] = accessorCount() - 1;
 }
 
+std::uint32_t CarriedData::accessor(std::uint32_t source_accessor, Use use) {
+    return carry(source_accessor,
+                 [&](json& entry) { placePacked(entry, use, packElements(source_, entry).bytes); });
+}
+
 std::uint32_t CarriedData::meshAccessor(std::uint32_t source_accessor) {
-    if (const auto known = accessor_numbers_.find(source_accessor);
-        known != accessor_numbers_.end())
-        return known->second;
-    const auto list = source_.json.find("accessors");
-    if (list == source_.json.end() || source_accessor >= list->size())
-        return kNone;
-    json entry = (*list)[source_accessor];
-    if (entry.contains("sparse") && entry["sparse"].is_object())
-        packSparse(entry);
-    if (entry.contains("bufferView")) {
+    return carry(source_accessor, [&](json& entry) {
         const PackedElements packed = packElements(source_, entry);
         const bool is_index = entry["type"] == "SCALAR" && entry["componentType"] != 5126;
         const std::size_t size = packed.element_bytes;
@@ -208,9 +205,7 @@ std::uint32_t CarriedData::meshAccessor(std::uint32_t source_accessor) {
         entry.erase("byteOffset");
         strided_.push_back(std::move(bytes));
         views_.push_back({strided_.back(), is_index ? 0U : static_cast<std::uint32_t>(stride)});
-    }
-    accessors_.push_back(std::move(entry));
-    return accessor_numbers_[source_accessor] = accessorCount() - 1;
+    });
 }
 
 std::uint32_t CarriedData::bufferView(std::uint32_t source_view) {

@@ -61,6 +61,9 @@ private:
         std::uint32_t byte_stride = 0; // 0: none
     };
 
+    // The accessor's number; place_data(entry) puts its elements where the entry then says.
+    template <class PlaceData>
+    std::uint32_t carry(std::uint32_t source_accessor, const PlaceData& place_data);
     // Appends to the view of that use and makes `place` refer to it.
     void placePacked(nlohmann::json& place, Use use, std::span<const std::byte> bytes);
     void packSparse(nlohmann::json& accessor);

@@ -2,6 +2,7 @@
 #include "scene/export.h"
 #include "scene/import.h"
 #include "scene/scene_builder.h"
+#include "scene/storage.h"
 #include "simplify/algorithm.h"
 #include "tests/scene/scene_fixtures.h"
 
@@ -112,6 +113,21 @@ TEST_F(StorageTest, ACrowdStaysInstancedBesideSinglesThatMerge) {
     EXPECT_EQ(counts.submeshes, 2U) << "the crowd's, and what the singles became";
     EXPECT_EQ(counts.instances, lod.submeshes.back().kept_instances + 1U);
     EXPECT_EQ(counts.triangles, lod.triangles);
+}
+
+TEST_F(StorageTest, AStoredLodCountsWhatIsMergedAndWhatStaysApart) {
+    std::vector<Part> parts(9);
+    parts.push_back({12, 300});
+    const ScenePtr scene = patchScene(parts, 2);
+    const LodSourcePtr source = iasOf(scene);
+    const Lod lod = source->readOut(source->positionCount() / 2, nullptr);
+    const StoragePlan storage(*scene, {});
+    const StoredShape stored = storage.smallest(shapeOf(*scene, lod));
+    ASSERT_GT(stored.way, 0U);
+    const Result<Lod> written = storage.storedLod(lod, stored.way);
+    ASSERT_TRUE(written);
+    EXPECT_EQ(written->triangles, lod.triangles);
+    EXPECT_EQ(written->instances, lod.submeshes.back().kept_instances + 1U);
 }
 
 TEST_F(StorageTest, ALoneInstanceIsStoredWithoutItsNodesWhereThatIsSmallerAndKeepsItsName) {
