@@ -1,5 +1,6 @@
 #include "bench/study/study_measure.h"
 
+#include "bench/study/pieces.h"
 #include "bench/timing.h"
 #include "scene/expand.h"
 #include "scene/generate.h"
@@ -12,8 +13,11 @@ namespace lodestone::bench {
 
 namespace {
 
-Result<LodSourcePtr> prepare(const char* algorithm, const ScenePtr& scene, Ordering ordering) {
-    return findAlgorithm(algorithm)->prepare(scene, {}, {ordering, {}, {}}, {});
+Result<LodSourcePtr> prepare(const char* algorithm,
+                             const ScenePtr& scene,
+                             Ordering ordering,
+                             const ParameterValues& values = {}) {
+    return findAlgorithm(algorithm)->prepare(scene, values, {ordering, {}, {}}, {});
 }
 
 // A source with the sizes of its LODs.
@@ -35,45 +39,73 @@ struct Sized {
     ByteModel bytes;
 };
 
-Result<StudyLevel>
-measuredLevel(const Scene& original, const Sized& of, double triangles, std::uint64_t samples) {
+// A level and how far it is from the original.
+struct Measured {
+    StudyLevel level;
+    Lod lod;
+};
+
+Result<Measured>
+measured(const Scene& original, const Sized& of, double triangles, std::uint64_t samples) {
     const std::uint64_t position = of.positionFor(triangles);
-    StudyLevel level = of.levelAt(position);
+    Measured result{of.levelAt(position), of.source->readOut(position, nullptr)};
     const Lod full = fullLod(original);
-    const Lod lod = of.source->readOut(position, nullptr);
     const Result<Distance> distance =
-        measureDistance({&original, &full}, {of.source->scene().get(), &lod}, {samples}, {});
+        measureDistance({&original, &full}, {of.source->scene().get(), &result.lod}, {samples}, {});
     if (!distance)
         return tl::unexpected(distance.error());
-    level.hausdorff = distance->hausdorff;
-    level.mean = distance->mean;
-    return level;
+    result.level.hausdorff = distance->hausdorff;
+    result.level.mean = distance->mean;
+    return result;
 }
 
-Result<void> measureLevels(StudyRow& row, const ScenePtr& scene, const StudyOptions& options) {
+Result<void> measureIas(StudyRow& row, const ScenePtr& scene, const StudyOptions& options) {
     const double limit = options.ratio * static_cast<double>(row.counts.triangles);
     const Result<LodSourcePtr> ias = prepare("ias", scene, Ordering::Triangle);
     if (!ias)
         return tl::unexpected(ias.error());
     const Sized by_triangle(*ias);
     row.original_bytes = by_triangle.levelAt(0).bytes;
+    Result<Measured> level = measured(*scene, by_triangle, limit, options.samples);
+    if (!level)
+        return tl::unexpected(level.error());
+    row.ias = level->level;
+    row.removed = row.counts.instances - level->lod.instances;
     const Sized by_cost((*ias)->rescheduled({Ordering::Cost, {}, {}}, by_triangle.bytes));
-    Result<StudyLevel> level = measuredLevel(*scene, by_triangle, limit, options.samples);
+    level = measured(*scene, by_cost, limit, options.samples);
     if (!level)
         return tl::unexpected(level.error());
-    row.ias = *level;
-    level = measuredLevel(*scene, by_cost, limit, options.samples);
+    row.by_cost = level->level;
+    const Result<LodSourcePtr> by_size =
+        prepare("ias", scene, Ordering::Triangle, {{"ips-switch", 2.0}});
+    if (!by_size)
+        return tl::unexpected(by_size.error());
+    row.by_size = row.ias;
+    if ((*by_size)->scene() == scene)
+        return {};
+    level =
+        measured(*scene, Sized(*by_size), static_cast<double>(row.ias.triangles), options.samples);
     if (!level)
         return tl::unexpected(level.error());
-    row.by_cost = *level;
+    row.by_size = level->level;
+    return {};
+}
+
+Result<void> measureLevels(StudyRow& row, const ScenePtr& scene, const StudyOptions& options) {
+    if (const Result<void> done = measureIas(row, scene, options); !done)
+        return done;
     const Result<LodSourcePtr> quadric = prepare("quadric", scene, Ordering::Triangle);
     if (!quadric)
         return tl::unexpected(quadric.error());
-    const auto equal = static_cast<double>(row.ias.triangles);
-    level = measuredLevel(*scene, Sized(*quadric), equal, options.samples);
+    const Result<Measured> level =
+        measured(*scene, Sized(*quadric), static_cast<double>(row.ias.triangles), options.samples);
     if (!level)
         return tl::unexpected(level.error());
-    row.quadric = *level;
+    row.quadric = level->level;
+    const Scene& expanded = *(*quadric)->scene();
+    row.pieces = countPieces(expanded, fullLod(expanded));
+    const std::uint64_t left = countPieces(expanded, level->lod);
+    row.pieces_lost = row.pieces - std::min(left, row.pieces);
     return {};
 }
 
@@ -97,6 +129,10 @@ double StudyRow::sizeReductionPercent() const {
 
 double StudyRow::costSizeReductionPercent() const {
     return reductionPercent(by_cost, quadric);
+}
+
+double StudyRow::bestSizeReductionPercent() const {
+    return reductionPercent(by_size, quadric);
 }
 
 StudyRow measureModel(const StudyModel& model, const StudyOptions& options) {

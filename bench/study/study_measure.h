@@ -22,13 +22,18 @@ struct StudyRow {
     std::uint64_t original_bytes = 0; // our export of the untouched scene
     StudyLevel ias;                   // ordering triangle
     StudyLevel by_cost;               // IAS in the paper's order
+    StudyLevel by_size;               // IAS, small scenes expanded where that is smaller
     StudyLevel quadric;               // at no more triangles than IAS
+    std::uint64_t removed = 0;        // instances that IAS removes
+    std::uint64_t pieces = 0;         // connected ones that Quadric begins with
+    std::uint64_t pieces_lost = 0;    // of these by Quadric
     std::string failure;              // empty: measured
 
     double ips() const; // instances per submesh that is drawn
     // Of IAS's file against Quadric's: 100 % is all, negative is larger.
     double sizeReductionPercent() const;
     double costSizeReductionPercent() const;
+    double bestSizeReductionPercent() const; // by_size
 };
 
 struct StudyOptions {

@@ -39,6 +39,17 @@ Json summaryJson(const StudySummary& summary) {
               {"mean_size_reduction_by_cost", summary.mean_cost_size_reduction},
               {"larger_share", summary.larger_share},
               {"larger_share_by_cost", summary.cost_larger_share},
+              {"mean_size_reduction_by_size", summary.mean_best_size_reduction},
+              {"larger_share_by_size", summary.best_larger_share},
+              {"hausdorff_kept_share_by_size", summary.best_hausdorff_kept_share},
+              {"all_size_reduction", summary.all_size_reduction},
+              {"larger_models", summary.larger_models},
+              {"larger_that_lost_pieces", summary.larger_that_lost},
+              {"hausdorff_worse_models", summary.worse_models},
+              {"hausdorff_worse_that_removed", summary.worse_that_removed},
+              {"hausdorff_worse_by_little", summary.worse_by_little},
+              {"models_that_lost_pieces", summary.models_that_lost},
+              {"pieces_lost_share", summary.pieces_lost_share},
               {"over_20_percent_smaller_share", summary.much_smaller_share},
               {"hausdorff_kept_share", summary.hausdorff_kept_share},
               {"hausdorff_no_worse_share", summary.hausdorff_no_worse_share},
@@ -80,6 +91,41 @@ private:
     const std::vector<const StudyRow*>& rows_;
 };
 
+bool keepsHausdorff(const StudyLevel& ours, const StudyLevel& theirs) {
+    return ours.hausdorff <= 1.05 * theirs.hausdorff + 0.02;
+}
+
+// What goes with larger files and greater distances.
+void countCauses(StudySummary& summary, const std::vector<const StudyRow*>& rows) {
+    double ours = 0.0;
+    double theirs = 0.0;
+    double pieces = 0.0;
+    double pieces_lost = 0.0;
+    for (const StudyRow* row : rows) {
+        ours += static_cast<double>(row->ias.bytes);
+        theirs += static_cast<double>(row->quadric.bytes);
+        pieces += static_cast<double>(row->pieces);
+        pieces_lost += static_cast<double>(row->pieces_lost);
+        summary.mean_best_size_reduction += row->bestSizeReductionPercent();
+        summary.models_that_lost += row->pieces_lost > 0 ? 1 : 0;
+        if (row->ias.bytes > row->quadric.bytes) {
+            ++summary.larger_models;
+            summary.larger_that_lost += row->pieces_lost > 0 ? 1 : 0;
+        }
+        if (keepsHausdorff(row->ias, row->quadric))
+            continue;
+        ++summary.worse_models;
+        summary.worse_that_removed += row->removed > 0 ? 1 : 0;
+        summary.worse_by_little += row->ias.hausdorff < 1.5 * row->quadric.hausdorff ||
+                                           row->ias.hausdorff < row->quadric.hausdorff + 0.5
+                                       ? 1
+                                       : 0;
+    }
+    summary.mean_best_size_reduction /= static_cast<double>(rows.size());
+    summary.all_size_reduction = theirs > 0.0 ? 100.0 * (1.0 - ours / theirs) : 0.0;
+    summary.pieces_lost_share = pieces > 0.0 ? 100.0 * pieces_lost / pieces : 0.0;
+}
+
 } // namespace
 
 StudySummary summaryOf(const Study& study) {
@@ -102,15 +148,19 @@ StudySummary summaryOf(const Study& study) {
     summary.mean_size_reduction /= static_cast<double>(rows.size());
     summary.mean_cost_size_reduction /= static_cast<double>(rows.size());
     const Shares shares(rows);
+    countCauses(summary, rows);
+    summary.best_larger_share =
+        shares.of([](const StudyRow& row) { return row.by_size.bytes > row.quadric.bytes; });
+    summary.best_hausdorff_kept_share =
+        shares.of([](const StudyRow& row) { return keepsHausdorff(row.by_size, row.quadric); });
     summary.larger_share =
         shares.of([](const StudyRow& row) { return row.ias.bytes > row.quadric.bytes; });
     summary.cost_larger_share =
         shares.of([](const StudyRow& row) { return row.by_cost.bytes > row.quadric.bytes; });
     summary.much_smaller_share =
         shares.of([](const StudyRow& row) { return row.sizeReductionPercent() > 20.0; });
-    summary.hausdorff_kept_share = shares.of([](const StudyRow& row) {
-        return row.ias.hausdorff <= 1.05 * row.quadric.hausdorff + 0.02;
-    });
+    summary.hausdorff_kept_share =
+        shares.of([](const StudyRow& row) { return keepsHausdorff(row.ias, row.quadric); });
     summary.hausdorff_no_worse_share =
         shares.of([](const StudyRow& row) { return row.ias.hausdorff <= row.quadric.hausdorff; });
     summary.mean_no_worse_share =
@@ -125,10 +175,11 @@ std::string studyCsv(const Study& study) {
     std::string text =
         "name,kind,submeshes,instances,ips,triangles,original_bytes,ias_triangles,ias_bytes,"
         "ias_hausdorff,ias_mean,cost_bytes,cost_hausdorff,cost_mean,quadric_triangles,"
-        "quadric_bytes,quadric_hausdorff,quadric_mean,size_reduction,failure\n";
+        "quadric_bytes,quadric_hausdorff,quadric_mean,size_reduction,by_size_bytes,"
+        "by_size_hausdorff,by_size_mean,instances_removed,pieces,quadric_pieces_lost,failure\n";
     for (const StudyRow& row : study.rows)
         text += fmt::format("{},{},{},{},{:.3f},{},{},{},{},{:.5g},{:.5g},{},{:.5g},{:.5g},{},{},{:"
-                            ".5g},{:.5g},{:.2f},{}\n",
+                            ".5g},{:.5g},{:.2f},{},{:.5g},{:.5g},{},{},{},{}\n",
                             quoted(row.name),
                             row.kind,
                             row.counts.submeshes,
@@ -148,6 +199,12 @@ std::string studyCsv(const Study& study) {
                             row.quadric.hausdorff,
                             row.quadric.mean,
                             row.sizeReductionPercent(),
+                            row.by_size.bytes,
+                            row.by_size.hausdorff,
+                            row.by_size.mean,
+                            row.removed,
+                            row.pieces,
+                            row.pieces_lost,
                             quoted(row.failure));
     return text;
 }
@@ -174,7 +231,11 @@ std::string studyJson(const Study& study) {
         model["original_bytes"] = row.original_bytes;
         model["ias"] = levelJson(row.ias);
         model["ias_by_cost"] = levelJson(row.by_cost);
+        model["ias_by_size"] = levelJson(row.by_size);
         model["quadric"] = levelJson(row.quadric);
+        model["instances_removed"] = row.removed;
+        model["quadric_pieces"] = row.pieces;
+        model["quadric_pieces_lost"] = row.pieces_lost;
         model["failure"] = row.failure;
         json["models"].push_back(std::move(model));
     }
@@ -204,6 +265,24 @@ std::string studyText(const Study& study) {
         summary.mean_no_worse_share);
     for (const auto& [limit, share] : summary.ips_below)
         text += fmt::format(" {:g}: {:.1f} %", limit, share);
+    text += fmt::format(
+        "\nsmall scenes expanded where that is smaller (ips-switch=size): {:.1f} % less, larger on "
+        "{:.2f} %, Hausdorff kept on {:.1f} %; all files together: {:.1f} % less\n"
+        "larger on {} models, on {} of them Quadric lost pieces; Hausdorff not kept on {}, on {} "
+        "of "
+        "them IAS removed instances, {} are worse by little\n"
+        "Quadric lost pieces on {} models, {:.1f} % of all pieces",
+        summary.mean_best_size_reduction,
+        summary.best_larger_share,
+        summary.best_hausdorff_kept_share,
+        summary.all_size_reduction,
+        summary.larger_models,
+        summary.larger_that_lost,
+        summary.worse_models,
+        summary.worse_that_removed,
+        summary.worse_by_little,
+        summary.models_that_lost,
+        summary.pieces_lost_share);
     return text + "\n";
 }
 
