@@ -61,14 +61,18 @@ public:
                 continue;
             touched_[a] = touched_[b] = true;
             moved_.push_back(a);
-            step_bands_.push_back(bandAfterNeighbors(bandOf(cost)));
+            if (tiled())
+                step_bands_.push_back(bandAfterNeighbors(bandOf(cost)));
         }
-        mesh_.reorderSteps(first_step, stepsByBand());
+        if (tiled())
+            mesh_.reorderSteps(first_step, stepsByBand());
         refresh();
         return watch.goOn(mesh_, live) ? static_cast<std::int64_t>(moved_.size()) : -1;
     }
 
 private:
+    bool tiled() const { return touched_.size() > kTiledAbove; }
+
     template <class Accept>
     void addAround(std::uint32_t v, Accept accept) {
         const ComponentMesh::Spokes spokes = mesh_.costSpokes(v, accept);
@@ -134,18 +138,18 @@ private:
     // Edges up to the last band, by tile, then by band (counting sorts, stable).
     void selectCheapest() {
         const std::uint32_t last = lastBand();
-        const std::size_t vertices = mesh_.vertexCount();
-        const bool tiled = vertices > kTiledAbove;
-        const auto tile_of = [&](const Edge& edge) { return tiled ? edge.a / kTileVertices : 0; };
-        std::vector<std::uint32_t> begin((tiled ? vertices / kTileVertices : 0) + 2, 0);
+        const auto tile_of = [&](std::size_t vertex) {
+            return tiled() ? vertex / kTileVertices : 0;
+        };
+        std::vector<std::uint32_t> begin(tile_of(touched_.size()) + 2, 0);
         for (const Edge& edge : edges_)
-            begin[tile_of(edge) + 1] += static_cast<std::uint32_t>(bandOf(edge.cost) <= last);
+            begin[tile_of(edge.a) + 1] += static_cast<std::uint32_t>(bandOf(edge.cost) <= last);
         std::partial_sum(begin.begin(), begin.end(), begin.begin());
         chosen_.resize(begin.back());
         std::vector<std::uint32_t> at(begin.begin(), begin.end() - 1);
         for (const Edge& edge : edges_)
             if (bandOf(edge.cost) <= last)
-                chosen_[at[tile_of(edge)]++] = edge;
+                chosen_[at[tile_of(edge.a)]++] = edge;
         for (std::size_t tile = 0; tile + 1 < begin.size(); ++tile)
             sortByBand(std::span(chosen_).subspan(begin[tile], begin[tile + 1] - begin[tile]));
     }
