@@ -17,7 +17,7 @@ struct SimplifyOptions {
     std::string algorithm;
     TargetTexts target;
     std::vector<std::string> parameters;
-    std::string ordering = "triangle";
+    std::string ordering; // empty: what suits the target best
     std::string scope = "submesh";
     std::string instancing = "auto";
     std::string compress = "none";
@@ -50,7 +50,10 @@ Result<RunRequest> parseRequest(const SimplifyOptions& options) {
     request.algorithm = *algorithm;
     const auto target = parseTarget(options.target);
     const auto parameters = parseParameters(**algorithm, options.parameters);
-    const auto ordering = parseOrdering(options.ordering);
+    const bool by_bytes = target && target->kind == Target::Kind::Bytes;
+    const auto ordering = parseOrdering(!options.ordering.empty() ? options.ordering
+                                        : by_bytes                ? "byte"
+                                                                  : "triangle");
     const auto instancing = parseInstancing(options.instancing);
     const auto compression = parseCompression(options.compress);
     const auto output = checkOutput(options.output, exportExtensions());
@@ -153,7 +156,8 @@ void addSimplifyCommand(CLI::App& app, ChosenCommand& chosen) {
     command
         .add_option("--ordering",
                     options->ordering,
-                    "what a step is worth: cost | triangle | byte (default triangle)")
+                    "what a step is worth: cost | triangle | byte (default: byte for --bytes, else "
+                    "triangle)")
         ->type_name("ORDER");
     command
         .add_option("--scope",

@@ -288,6 +288,22 @@ TEST_F(CliTest, TheSameCommandWritesTheSameBytesOnAnyNumberOfThreads) {
     }
 }
 
+TEST_F(CliTest, StepsAreOrderedByBytesForAByteTargetElseByTriangles) {
+    const auto written = [&](const std::string& kind, const std::string& value, auto... ordering) {
+        std::vector<std::string> arguments{
+            "simplify", chair(), "-o", path("ordered.glb"), "--algorithm", "ias", kind, value};
+        (arguments.push_back(ordering), ...);
+        EXPECT_EQ(run(arguments).code, 0);
+        return contents(path("ordered.glb"));
+    };
+    const auto by_bytes = written("--bytes", "16000", "--ordering", "byte");
+    EXPECT_TRUE(written("--bytes", "16000") == by_bytes);
+    EXPECT_FALSE(written("--bytes", "16000", "--ordering", "triangle") == by_bytes);
+    const auto by_triangles = written("--ratio", "0.3", "--ordering", "triangle");
+    EXPECT_TRUE(written("--ratio", "0.3") == by_triangles);
+    EXPECT_FALSE(written("--ratio", "0.3", "--ordering", "byte") == by_triangles);
+}
+
 TEST_F(CliTest, AMissedTargetIsDoneAndSaysWhy) {
     const Ran ran = run({"simplify",
                          chair(),
