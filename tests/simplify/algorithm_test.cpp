@@ -4,6 +4,7 @@
 #include "tests/simplify/meshes.h"
 
 #include <chrono>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -227,19 +228,19 @@ TEST(Algorithms, CancelledOnesReturnSoonAndNothing) {
         std::stop_source source;
         JobContext job;
         job.stop = source.get_token();
-        std::chrono::steady_clock::time_point stopped;
+        std::clock_t stopped = 0; // CPU time of all threads
         std::thread stopper([&] {
             std::this_thread::sleep_for(std::chrono::milliseconds(30));
-            stopped = std::chrono::steady_clock::now();
+            stopped = std::clock();
             source.request_stop();
         });
         const Result<LodSourcePtr> result = algorithm.prepare(scene, {}, {}, job);
-        const auto ended = std::chrono::steady_clock::now();
+        const std::clock_t ended = std::clock();
         stopper.join();
         ASSERT_FALSE(result) << algorithm.id;
         EXPECT_EQ(result.error().kind, ErrorKind::Cancelled);
-        // 10 ms is the aim; a busy machine may take its time to wake us.
-        EXPECT_LT(std::chrono::duration<double>(ended - stopped).count(), 0.25) << algorithm.id;
+        // 10 ms is the aim; sanitizers take their time, what else the machine does stays out of it.
+        EXPECT_LT(static_cast<double>(ended - stopped) / CLOCKS_PER_SEC, 0.25) << algorithm.id;
     }
 }
 
