@@ -200,12 +200,13 @@ private:
     }
 
     // What rotations of the submesh's rows may move; a row's scale holds the grid's step, or a
-    // scale of the nodes around them does.
+    // scale of the nodes around them does. The distance is that from the submesh's own origin, also
+    // where the grid has its origin in the middle: LODs that grew have another grid, and what is
+    // stored must not depend on that.
     RowReach reachOf(std::uint32_t submesh, double node_scale) const {
         const PositionGrid& grid = plan_.grids[submesh];
         const Bounds box = localBounds(scene_.submeshes[submesh]);
-        const glm::dvec3 far =
-            glm::max(glm::abs(box.min - grid.offset), glm::abs(box.max - grid.offset));
+        const glm::dvec3 far = glm::max(glm::abs(box.min), glm::abs(box.max));
         const double step = grid.step > 0.0 ? grid.step : 1.0;
         return {glm::length(far) / step,
                 plan_.diagonal * kRotationTolerance / node_scale,
