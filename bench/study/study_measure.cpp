@@ -92,7 +92,7 @@ Result<void> measureIas(StudyRow& row, const ScenePtr& scene, const StudyOptions
 }
 
 Result<void> measureLevels(StudyRow& row, const ScenePtr& scene, const StudyOptions& options) {
-    if (const Result<void> done = measureIas(row, scene, options); !done)
+    if (Result<void> done = measureIas(row, scene, options); !done)
         return done;
     const Result<LodSourcePtr> quadric = prepare("quadric", scene, Ordering::Triangle);
     if (!quadric)
