@@ -203,7 +203,6 @@ bool contains(const Bounds& outer, const Bounds& inner) {
            glm::all(glm::greaterThanEqual(outer.max, inner.max));
 }
 
-// A box around a transformed box.
 // Bounds of every instanced vertex that lies within `limit` of `origin` (no limit if negative).
 // Only instances whose box sticks out of the bounds so far are looked at closely: a few in a
 // hundred.

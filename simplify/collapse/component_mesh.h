@@ -394,9 +394,7 @@ void ComponentMesh::visitReadByCollapse(Visit visit) const {
             visit(face.next);
             visit(face.last);
         }
-    for (const std::uint32_t f : dying_)
-        for (const std::uint32_t v : faces_[f])
-            visit(v);
+    visitChangedByCollapse(visit);
 }
 
 template <class Visit>

@@ -103,7 +103,7 @@ float FillingGrid::nearestWithin(const glm::ivec3& low,
 
 float FillingGrid::nearest(const glm::vec3& p) const {
     const glm::vec3 at = p * per_cell_;
-    const glm::ivec3 center = glm::clamp(glm::ivec3(at), glm::ivec3(0), cells_ - 1);
+    const glm::ivec3 center = cellOf(p);
     // The cells that share the corner nearest to p are all that a ball of half a cell touches.
     const glm::ivec3 side(glm::lessThan(at - glm::vec3(center), glm::vec3(0.5f)));
     float best2 = nearestWithin(

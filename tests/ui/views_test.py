@@ -173,6 +173,7 @@ def test_every_shading_and_background_is_another_picture(folder):
 
 def test_the_camera_that_shows_everything_does_so_in_views_of_another_shape(folder):
     with open_chair(folder) as window:
+        window.wait_still()  # lanes can be ready before their views have their shape
         narrow = window.state()["distance"]
         window.click("Menu/Views/1")
         window.wait("another distance",
