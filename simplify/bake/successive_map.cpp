@@ -1,5 +1,7 @@
 #include "simplify/bake/successive_map.h"
 
+#include "simplify/bake/closest_point.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -35,49 +37,16 @@ ByStep groupBySteps(std::span<const std::uint32_t> step_of, std::uint32_t last) 
     return groups;
 }
 
-// Weights of the closest point of a triangle (Ericson 2005, 5.1.5).
-glm::vec3 closestOn(const glm::vec3& p, const std::array<glm::vec3, 3>& t) {
+// Whether a point lies over the inside of a triangle that looks as the normal does.
+bool liesOver(const glm::vec3& point, const std::array<glm::vec3, 3>& t, const glm::vec3& normal) {
     const glm::vec3 ab = t[1] - t[0];
     const glm::vec3 ac = t[2] - t[0];
-    const glm::vec3 ap = p - t[0];
-    const float d1 = glm::dot(ab, ap);
-    const float d2 = glm::dot(ac, ap);
-    if (d1 <= 0.0f && d2 <= 0.0f)
-        return {1.0f, 0.0f, 0.0f};
-    const glm::vec3 bp = p - t[1];
-    const float d3 = glm::dot(ab, bp);
-    const float d4 = glm::dot(ac, bp);
-    if (d3 >= 0.0f && d4 <= d3)
-        return {0.0f, 1.0f, 0.0f};
-    const float vc = d1 * d4 - d3 * d2;
-    if (vc <= 0.0f && d1 >= 0.0f && d3 <= 0.0f) {
-        const float v = d1 / std::max(d1 - d3, std::numeric_limits<float>::min());
-        return {1.0f - v, v, 0.0f};
-    }
-    const glm::vec3 cp = p - t[2];
-    const float d5 = glm::dot(ab, cp);
-    const float d6 = glm::dot(ac, cp);
-    if (d6 >= 0.0f && d5 <= d6)
-        return {0.0f, 0.0f, 1.0f};
-    const float vb = d5 * d2 - d1 * d6;
-    if (vb <= 0.0f && d2 >= 0.0f && d6 <= 0.0f) {
-        const float w = d2 / std::max(d2 - d6, std::numeric_limits<float>::min());
-        return {1.0f - w, 0.0f, w};
-    }
-    const float va = d3 * d6 - d5 * d4;
-    if (va <= 0.0f && d4 - d3 >= 0.0f && d5 - d6 >= 0.0f) {
-        const float w =
-            (d4 - d3) / std::max((d4 - d3) + (d5 - d6), std::numeric_limits<float>::min());
-        return {0.0f, 1.0f - w, w};
-    }
-    const float sum = va + vb + vc;
-    if (!(sum > 0.0f))
-        return {1.0f, 0.0f, 0.0f};
-    return {va / sum, vb / sum, vc / sum};
-}
-
-glm::vec3 pointOf(const std::array<glm::vec3, 3>& t, const glm::vec3& weights) {
-    return t[0] * weights.x + t[1] * weights.y + t[2] * weights.z;
+    const glm::vec3 ap = point - t[0];
+    const glm::vec3 across = glm::cross(ab, ac);
+    const float b = glm::dot(glm::cross(ap, ac), across);
+    const float c = glm::dot(glm::cross(ab, ap), across);
+    return glm::dot(across, normal) > 0.0f && b > 0.0f && c > 0.0f &&
+           b + c < glm::dot(across, across);
 }
 
 } // namespace
@@ -89,7 +58,7 @@ struct SuccessiveMap::Replay {
     std::vector<std::vector<std::uint32_t>> faces_of; // [wedges] with a corner on it
     std::vector<std::uint32_t> seen;                  // [faces] last step that met it
     std::vector<std::uint32_t> met;
-    std::vector<std::array<std::uint32_t, 2>> outlived; // {face, step}
+    std::vector<std::pair<std::uint32_t, Split>> outlived; // by faces
 
     void meet(std::uint32_t wedge, std::uint32_t step) {
         std::vector<std::uint32_t>& faces = faces_of[wedge];
@@ -112,9 +81,9 @@ struct SuccessiveMap::Replay {
                 candidate.corners[k] = map.positions_[map.wedges_[f][k]];
             const auto& c = candidate.corners;
             candidate.radius = std::max(glm::length(c[1] - c[0]), glm::length(c[2] - c[0]));
-            map.candidates_.push_back(candidate);
             if (sequence.face_death[f] > step)
-                outlived.push_back({f, step});
+                outlived.push_back({f, {step, map.candidates_.size()}});
+            map.candidates_.push_back(candidate);
         }
     }
 
@@ -174,6 +143,7 @@ SuccessiveMap::SuccessiveMap(const CollapseSequence& sequence,
             replay.faces_of[wedge].push_back(f);
     replay.seen.assign(complex.faces.size(), 0);
     replay.run(step, job);
+    nearest_.emplace(complex, originals_);
     split_begin_.assign(complex.faces.size() + 1, 0);
     for (const auto& [face, at] : replay.outlived)
         ++split_begin_[face + 1];
@@ -203,10 +173,13 @@ SuccessiveMap::trace(std::uint32_t face, const glm::vec3& point, const glm::vec3
     for (;;) {
         const auto begin = splits_.begin() + static_cast<std::ptrdiff_t>(split_begin_[face]);
         const auto end = splits_.begin() + static_cast<std::ptrdiff_t>(split_begin_[face + 1]);
-        const auto after = std::lower_bound(begin, end, before);
+        auto after = std::ranges::lower_bound(begin, end, before, {}, &Split::step);
+        // Nothing of the ring is nearer, unless it is folded: nine of ten splits end here.
+        while (after != begin && liesOver(point, candidates_[(after - 1)->own].corners, normal))
+            --after;
         if (after == begin)
             break;
-        before = *(after - 1);
+        before = (after - 1)->step;
         float best2 = std::numeric_limits<float>::infinity();
         for (std::size_t i = candidate_begin_[before - 1]; i < candidate_begin_[before]; ++i) {
             const Candidate& candidate = candidates_[i];
@@ -214,7 +187,7 @@ SuccessiveMap::trace(std::uint32_t face, const glm::vec3& point, const glm::vec3
             const float reach = glm::length(point - c[0]) - candidate.radius;
             if (reach > 0.0f && reach * reach >= best2)
                 continue;
-            const glm::vec3 off = point - pointOf(c, closestOn(point, c));
+            const glm::vec3 off = point - blended(c, closestOn(point, c));
             float distance2 = glm::dot(off, off);
             if (glm::dot(glm::cross(c[1] - c[0], c[2] - c[0]), normal) < 0.0f)
                 distance2 += kOtherSide * candidate.radius * candidate.radius;
@@ -224,6 +197,7 @@ SuccessiveMap::trace(std::uint32_t face, const glm::vec3& point, const glm::vec3
             }
         }
     }
+    face = nearest_->closest({point, normal, face});
     const auto& corners = sequence_.complex.faces[face];
     return {
         face,

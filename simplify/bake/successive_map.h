@@ -3,8 +3,12 @@
 // splits are replayed from coarse to fine, and at each the point moves to the nearest triangle of
 // the split edge's one-ring. The point itself stays where it was sampled, so nothing drifts; that
 // only one-rings are searched keeps it on its own sheet, where a closest point of the whole surface
-// may lie on the far side of a thin wall.
+// may lie on the far side of a thin wall. What the one-rings have missed is found at the end, by a
+// search of the original surface that faces the same way (NearestFace).
+#include "simplify/bake/nearest_face.h"
 #include "simplify/collapse/sequence.h"
+
+#include <optional>
 
 namespace lodestone {
 
@@ -45,6 +49,12 @@ private:
         std::array<glm::vec3, 3> corners;
     };
 
+    // A step whose collapse a face outlived.
+    struct Split {
+        std::uint32_t step = 0;
+        std::size_t own = 0; // of the candidates: the face itself
+    };
+
     const CollapseSequence& sequence_;
     std::vector<std::uint32_t> alive_;
     std::vector<std::uint32_t> alive_begin_;           // [primitives + 1]
@@ -53,8 +63,9 @@ private:
     std::vector<glm::vec3> originals_;                 // [wedges] at step 0
     std::vector<Candidate> candidates_;
     std::vector<std::size_t> candidate_begin_; // [steps + 1] of step s at s - 1
-    std::vector<std::uint32_t> splits_;        // steps whose collapse a face outlived, rising
+    std::vector<Split> splits_;                // of each face, rising
     std::vector<std::size_t> split_begin_;     // [faces + 1]
+    std::optional<NearestFace> nearest_;       // of the originals
 };
 
 } // namespace lodestone
