@@ -4,12 +4,12 @@
 #include "bench/table.h"
 #include "simplify/algorithm.h"
 #include "simplify/measure/color_distance.h"
-#include "simplify/measure/measured_side.h"
-#include "simplify/measure/surface_color.h"
+#include "simplify/measure/colored_side.h"
 
 #include <array>
 #include <cmath>
 #include <fmt/core.h>
+#include <functional>
 #include <iostream>
 
 namespace lodestone::bench {
@@ -194,50 +194,6 @@ Result<double> colorOf(const Scene& original,
     return distance->mean;
 }
 
-// What a perfect transfer would leave: every point of the LOD has the colour of the original's
-// point closest to it, so only what the shape has lost is left.
-Result<double> colorBound(const Scene& original, const LodSource& source, double ratio) {
-    struct ColorSums {
-        std::uint64_t count = 0;
-        double sum = 0.0;
-
-        void add(const ColorSums& other) {
-            count += other.count;
-            sum += other.sum;
-        }
-    };
-
-    const DistanceOptions options{100'000, 1};
-    const Lod lod = lodAtTriangles(source, ratio * static_cast<double>(source.trianglesAt(0)));
-    const Lod full = fullLod(original);
-    const Result<MeasuredPair> pair =
-        measuredPair({&original, &full}, {source.scene().get(), &lod}, options, {});
-    if (!pair)
-        return tl::unexpected(pair.error());
-    const SurfaceColors colors(original);
-    const auto color = [&](std::uint32_t piece, std::size_t triangle, const glm::dvec3& weights) {
-        const SurfacePiece& drawn = pair->a.pieces[piece];
-        return colors.at(*drawn.geometry, drawn.material, triangle, weights);
-    };
-    const auto add =
-        [&](ColorSums& sums, const SurfaceSample& sample, const ClosestSurface::Hit& hit) {
-            const Triangle on = pair->b.surface.triangle(hit);
-            const glm::dvec3 weights = closestWeights(sample.point, on);
-            const glm::dvec3 point = on[0] * weights.x + on[1] * weights.y + on[2] * weights.z;
-            const ClosestSurface& surface = pair->a.surface;
-            const ClosestSurface::Hit back = ClosestSurface::Cursor(surface).closest(point);
-            const glm::dvec3 there = color(back.piece,
-                                           surface.geometryTriangle(back),
-                                           closestWeights(point, surface.triangle(back)));
-            const glm::dvec3 here = color(sample.piece, sample.triangle, sample.weights);
-            sums.add({1, glm::length(here - there)});
-        };
-    const Result<ColorSums> sums = sumOverSamples<ColorSums>(pair->a, pair->b, options, {}, add);
-    if (!sums)
-        return tl::unexpected(sums.error());
-    return 0.5 * sums->sum / static_cast<double>(sums->count); // the way back costs nothing
-}
-
 // An atlas a material, or a larger one for all where there are many.
 BakeOptions atlasesFor(const Scene& scene) {
     constexpr std::size_t kManyMaterials = 16;
@@ -249,9 +205,37 @@ BakeOptions atlasesFor(const Scene& scene) {
     return options;
 }
 
-Result<std::string> colorRow(const ScenePtr& scene, const char* name) {
+// What a perfect transfer would leave: every point of the LOD has the colour of the original's
+// point closest to it, so only what the shape has lost is left.
+Result<double> colorBound(const Scene& original, const LodSource& source, double ratio) {
+    const DistanceOptions options{100'000, 1};
+    const Lod lod = lodAtTriangles(source, ratio * static_cast<double>(source.trianglesAt(0)));
+    const Lod full = fullLod(original);
+    const Result<MeasuredPair> pair =
+        measuredPair({&original, &full}, {source.scene().get(), &lod}, options, {});
+    if (!pair)
+        return tl::unexpected(pair.error());
+    const SurfaceColors colors(original);
+    const ColoredSide of_original{pair->a, colors};
+    const auto add =
+        [&](ColorSums& sums, const SurfaceSample& sample, const ClosestSurface::Hit& hit) {
+            const Triangle on = pair->b.surface.triangle(hit);
+            const glm::dvec3 weights = closestWeights(sample.point, on);
+            const glm::dvec3 point = on[0] * weights.x + on[1] * weights.y + on[2] * weights.z;
+            const ClosestSurface::Hit back = ClosestSurface::Cursor(pair->a.surface).closest(point);
+            sums.add(of_original.colorAt(sample.piece, sample.triangle, sample.weights) -
+                     of_original.colorAt(back, point));
+        };
+    const Result<ColorSums> sums = sumOverSamples<ColorSums>(pair->a, pair->b, options, {}, add);
+    if (!sums)
+        return tl::unexpected(sums.error());
+    return 0.5 * sums->mean(); // the way back costs nothing
+}
+
+Result<std::string> colorRow(const ScenePtr& scene, const std::string& name) {
     const Method kept{"", "quadric", {}};
-    const Method moved{"", "wild", {{"scope", 2.0}}};
+    // Grown leaves lie elsewhere on purpose: colours of closest points would not tell anything.
+    const Method moved{"", "wild", {{"scope", 2.0}, {"crowds", 0.0}}};
     const Result<LodSourcePtr> keeps = prepared(scene, kept);
     const Result<LodSourcePtr> transfers = prepared(scene, moved);
     if (!keeps || !transfers)
@@ -270,21 +254,18 @@ Result<std::string> colorRow(const ScenePtr& scene, const char* name) {
     return row + "\n";
 }
 
-int addColors(WildTable& table, Inputs& inputs, const TitleFilter& wanted) {
-    table.markdown += "\n## Wild: texture transfer\n\nSymmetric colour Chamfer distance (0..√3), "
-                      "perfect : transferred : kept by attribute-aware Quadric "
-                      "(transferred over kept); atlases of 1024 pixels, or one of 4096 for more "
-                      "than 16 materials. Perfect: each point of "
-                      "Wild's LOD has the colour of the closest point of the original.\n\n| model "
-                      "| 10 % | 1 % | 0.1 % |\n|---|---|---|---|\n";
+using NamedScenes = std::vector<std::pair<std::string, Result<ScenePtr>>>;
+using RowOf = std::function<Result<std::string>(const ScenePtr& scene, const std::string& name)>;
+
+// A row a scene. What fails is told and left out. Returns the exit code.
+int addRows(WildTable& table, const NamedScenes& scenes, const RowOf& row_of) {
     int code = 0;
-    for (const char* name : kPictures) {
-        const Result<ScenePtr> scene = inputs.model(name);
-        if (!wanted(name) || (scene && !*scene))
+    for (const auto& [name, scene] : scenes) {
+        if (scene && !*scene)
             continue;
-        std::cerr << "texture transfer: " << name << '\n';
+        std::cerr << "wild: " << name << '\n';
         const Result<std::string> row =
-            scene ? colorRow(*scene, name) : tl::unexpected(scene.error());
+            scene ? row_of(*scene, name) : tl::unexpected(scene.error());
         if (row) {
             table.markdown += *row;
             continue;
@@ -293,6 +274,21 @@ int addColors(WildTable& table, Inputs& inputs, const TitleFilter& wanted) {
         code = exitCode(row.error().kind);
     }
     return code;
+}
+
+int addColors(WildTable& table, Inputs& inputs, const TitleFilter& wanted) {
+    table.markdown +=
+        "\n## Wild: texture transfer\n\nSymmetric colour Chamfer distance (0..√3), "
+        "perfect : transferred : kept by attribute-aware Quadric "
+        "(transferred over kept); atlases of 1024 pixels, or one of 4096 for more than 16 "
+        "materials; "
+        "crowds do not grow. Perfect: each point of Wild's LOD has the colour of the closest point "
+        "of the original.\n\n| model | 10 % | 1 % | 0.1 % |\n|---|---|---|---|\n";
+    NamedScenes scenes;
+    for (const char* name : kPictures)
+        if (wanted(name))
+            scenes.emplace_back(name, inputs.model(name));
+    return addRows(table, scenes, colorRow);
 }
 
 // CPU seconds of the whole sequence by Quadric, by Wild and by Wild with virtual edges.
@@ -324,7 +320,7 @@ int addTimes(WildTable& table, Inputs& inputs) {
         "\n## Wild: time\n\nCPU of the whole sequence on one thread (attributes do "
         "not count).\n\n| model | triangles | Quadric | Wild | ratio | ε 0.1 % | ratio "
         "|\n|---|---|---|---|---|---|---|\n";
-    std::vector<std::pair<std::string, Result<ScenePtr>>> scenes;
+    NamedScenes scenes;
     for (const std::uint32_t side : {46u, 91u, 182u})
         scenes.emplace_back("bumpy sphere", displacedSphere(side));
     for (const char* name : {"textured/office/office.obj",
@@ -332,20 +328,7 @@ int addTimes(WildTable& table, Inputs& inputs) {
                              "monkeys_on_landscape_binary_with_normals_etc.ply",
                              "meshes/horse/horse.ply"})
         scenes.emplace_back(name, inputs.model(name));
-    int code = 0;
-    for (const auto& [name, scene] : scenes) {
-        if (scene && !*scene)
-            continue;
-        const Result<std::string> row =
-            scene ? timeRow(*scene, name) : tl::unexpected(scene.error());
-        if (row) {
-            table.markdown += *row;
-            continue;
-        }
-        std::cerr << "lodestone_bench: " << row.error().message << '\n';
-        code = exitCode(row.error().kind);
-    }
-    return code;
+    return addRows(table, scenes, timeRow);
 }
 
 } // namespace

@@ -1,7 +1,6 @@
 #include "simplify/measure/color_distance.h"
 
-#include "simplify/measure/measured_side.h"
-#include "simplify/measure/surface_color.h"
+#include "simplify/measure/colored_side.h"
 
 #include <optional>
 
@@ -9,45 +8,17 @@ namespace lodestone {
 
 namespace {
 
-struct Sums {
-    std::uint64_t count = 0;
-    double sum = 0.0;
-
-    void add(const Sums& other) {
-        count += other.count;
-        sum += other.sum;
-    }
-
-    double mean() const { return sum / static_cast<double>(count); }
-};
-
-struct ColoredSide {
-    const MeasuredSide& side;
-    const SurfaceColors& colors;
-
-    glm::dvec3 colorAt(std::uint32_t piece, std::size_t triangle, const glm::dvec3& weights) const {
-        const SurfacePiece& drawn = side.pieces[piece];
-        return colors.at(*drawn.geometry, drawn.material, triangle, weights);
-    }
-
-    glm::dvec3 colorAt(const ClosestSurface::Hit& hit, const glm::dvec3& point) const {
-        return colorAt(hit.piece,
-                       side.surface.geometryTriangle(hit),
-                       closestWeights(point, side.surface.triangle(hit)));
-    }
-};
-
-Result<Sums> measureOneSided(const ColoredSide& from,
-                             const ColoredSide& to,
-                             const DistanceOptions& options,
-                             const JobContext& job) {
-    const auto add = [&](Sums& sums, const SurfaceSample& sample, const ClosestSurface::Hit& hit) {
-        const glm::dvec3 here = from.colorAt(sample.piece, sample.triangle, sample.weights);
-        const glm::dvec3 there = to.colorAt(hit, sample.point);
-        ++sums.count;
-        sums.sum += glm::length(here - there);
-    };
-    return sumOverSamples<Sums>(from.side, to.side, options, job, add);
+Result<ColorSums> measureOneSided(const ColoredSide& from,
+                                  const ColoredSide& to,
+                                  const DistanceOptions& options,
+                                  const JobContext& job) {
+    const auto add =
+        [&](ColorSums& sums, const SurfaceSample& sample, const ClosestSurface::Hit& hit) {
+            const glm::dvec3 here = from.colorAt(sample.piece, sample.triangle, sample.weights);
+            const glm::dvec3 there = to.colorAt(hit, sample.point);
+            sums.add(here - there);
+        };
+    return sumOverSamples<ColorSums>(from.side, to.side, options, job, add);
 }
 
 } // namespace
@@ -66,10 +37,12 @@ Result<ColorDistance> measureColorDistance(const LodView& a,
     const SurfaceColors& colors_b = own_colors_b ? *own_colors_b : colors_a;
     const ColoredSide side_a{pair->a, colors_a};
     const ColoredSide side_b{pair->b, colors_b};
-    const Result<Sums> a_to_b = measureOneSided(side_a, side_b, options, partOf(job, 0.2, 0.6));
+    const Result<ColorSums> a_to_b =
+        measureOneSided(side_a, side_b, options, partOf(job, 0.2, 0.6));
     if (!a_to_b)
         return tl::unexpected(a_to_b.error());
-    const Result<Sums> b_to_a = measureOneSided(side_b, side_a, options, partOf(job, 0.6, 1.0));
+    const Result<ColorSums> b_to_a =
+        measureOneSided(side_b, side_a, options, partOf(job, 0.6, 1.0));
     if (!b_to_a)
         return tl::unexpected(b_to_a.error());
     ColorDistance distance;
