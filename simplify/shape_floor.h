@@ -16,8 +16,8 @@ struct ShapeMeasure {
 
 // The shares that must stay, 0..1.
 struct ShapeShares {
-    double extent = 0.8; // of every axis but a thin one
-    double area = 0.5;
+    double extent = 0.0; // of every axis but a thin one
+    double area = 0.0;
 };
 
 // Whether that much of `whole` is left. A leaf's sag is not its size: an axis less than a quarter

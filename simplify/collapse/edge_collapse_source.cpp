@@ -133,8 +133,7 @@ std::string EdgeCollapseSource::whatSeamsHold() const {
 std::string EdgeCollapseSource::whyMissed() const {
     const bool locked = std::ranges::find(options_.locked, true) != options_.locked.end();
     std::string why =
-        "target not reached: every submesh is at its floor (at least 4 triangles, 80 % "
-        "of its extent, one instance)";
+        "target not reached: every submesh is at its floor (at least 4 triangles, one instance)";
     if (locked)
         why += " or locked";
     return seams_ == Seams::Strict ? why + whatSeamsHold() : why;

@@ -28,6 +28,10 @@ measureAt(const CollapseSequence& sequence, const Submesh& submesh, std::uint32_
     return measure;
 }
 
+// A share of its axes leaves a flat shape at least that much of its area, rounder ones about as
+// much.
+constexpr double kAreaOfExtent = 0.625;
+
 // The last step with at least that many triangles.
 std::uint32_t lastStepWith(const CollapseSequence& sequence, std::uint32_t triangles) {
     std::uint32_t low = 0;
@@ -56,8 +60,9 @@ std::uint32_t floorStep(const CollapseSequence& sequence,
         return limit;
     const ShapeMeasure whole = measureAt(sequence, submesh, 0);
     const auto passes = [&](std::uint32_t step) {
-        return keepsShape(
-            measureAt(sequence, submesh, step), whole, {floors.min_extent, floors.min_area});
+        return keepsShape(measureAt(sequence, submesh, step),
+                          whole,
+                          {floors.min_shape, kAreaOfExtent * floors.min_shape});
     };
     // Extent and area fall slowly at first: look from the coarse end, halving the way back, then
     // bisect. Each look costs what is left of the mesh, and the coarse end is cheap.

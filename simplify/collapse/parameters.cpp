@@ -4,6 +4,8 @@ namespace lodestone {
 
 namespace {
 
+constexpr std::string_view kShapeFloor = "shape-floor";
+
 ParameterInfo weightParameter(std::string_view id,
                               std::string_view label,
                               std::string_view tooltip,
@@ -103,6 +105,8 @@ ParameterInfo removalParameter() {
     return removal;
 }
 
+namespace {
+
 ParameterInfo removalRuleParameter() {
     ParameterInfo rule;
     rule.id = "removal-rule";
@@ -113,6 +117,22 @@ ParameterInfo removalRuleParameter() {
     rule.kind = ParameterInfo::Kind::Choice;
     rule.choices = {"by-cost", "paper"};
     return rule;
+}
+
+} // namespace
+
+void addRemovalParameters(std::vector<ParameterInfo>& parameters) {
+    parameters.push_back(removalParameter());
+    parameters.push_back(removalRuleParameter());
+    ParameterInfo floor;
+    floor.id = kShapeFloor;
+    floor.label = "Shape floor";
+    floor.tooltip =
+        "Share of every axis that a submesh of 16 or more instances keeps, and 5/8 of it of "
+        "its area; below it instances go. 0.8: leaves keep their shape and grow fewer. "
+        "0: shapes get as coarse as they can before any goes.";
+    floor.fallback = FloorOptions{}.min_shape;
+    parameters.push_back(floor);
 }
 
 Result<EdgeCollapseOptions> readCollapseParameters(const Algorithm& algorithm,
@@ -132,6 +152,7 @@ Result<EdgeCollapseOptions> readCollapseParameters(const Algorithm& algorithm,
     options.collapse.seams = parameterValue(algorithm, values, "seams");
     options.remove_instances = parameterValue(algorithm, values, "remove-instances") > 0.5;
     options.remove_by_paper = parameterValue(algorithm, values, "removal-rule") > 0.5;
+    options.floors.min_shape = parameterValue(algorithm, values, kShapeFloor);
     return options;
 }
 

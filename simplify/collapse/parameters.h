@@ -6,9 +6,10 @@
 namespace lodestone {
 
 std::vector<ParameterInfo> collapseParameters();
-// For methods that keep instances: whether they thin them out, and by which rule.
+// For methods that keep instances: whether they thin them out.
 ParameterInfo removalParameter();
-ParameterInfo removalRuleParameter();
+// That, by which rule, and from which shape on.
+void addRemovalParameters(std::vector<ParameterInfo>& parameters);
 
 // Options of an edge-collapse row from its values. Errors: Usage, naming the parameter.
 Result<EdgeCollapseOptions> readCollapseParameters(const Algorithm& algorithm,

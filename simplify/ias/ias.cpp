@@ -111,8 +111,7 @@ Algorithm iasAlgorithm() {
         "Collapses submesh edges by the error that all instances would show; instancing and "
         "its small file stay.";
     row.parameters = collapseParameters();
-    row.parameters.push_back(removalParameter());
-    row.parameters.push_back(removalRuleParameter());
+    addRemovalParameters(row.parameters);
     row.parameters.push_back(switchParameter());
     addBakeParameters(row.parameters);
     row.prepare = prepareIas;

@@ -54,8 +54,7 @@ Algorithm quadricSubmeshAlgorithm() {
         "Collapses each submesh as if it stood alone; ignores how often and how large its "
         "instances are.";
     row.parameters = collapseParameters();
-    row.parameters.push_back(removalParameter());
-    row.parameters.push_back(removalRuleParameter());
+    addRemovalParameters(row.parameters);
     addBakeParameters(row.parameters);
     row.prepare = prepareQuadricSubmesh;
     return row;

@@ -13,7 +13,7 @@ using meshes::sequenceOf;
 using meshes::Shape;
 using meshes::submeshOf;
 
-constexpr FloorOptions kNoFloors{false, 0, 0.0, 0.0};
+constexpr FloorOptions kNoFloors{false, 0, 0.0};
 
 GeometryPtr made(std::vector<glm::vec3> positions, std::vector<std::uint32_t> indices) {
     auto geometry = std::make_shared<Geometry>();
@@ -348,15 +348,22 @@ TEST(Collapse, FewInstancesAreCollapsedOn) {
     EXPECT_EQ(sequence.facesAt(sequence.step_count), 4u);
 }
 
-TEST(Collapse, ManyInstancesKeepExtentAndArea) {
+TEST(Collapse, ManyInstancesKeepTheShareOfTheirShapeThatTheFloorSays) {
     const Submesh submesh = submeshOf({meshes::sphere(12, 16)});
     const Shape whole = meshes::shapeOf(std::array{submesh.primitives[0].geometry});
-    const CollapseSequence sequence = sequenceOf(submesh, {}, {}, 16);
-    const Shape least = meshes::shapeOf(readAt(sequence, submesh, sequence.step_count));
-    for (int axis = 0; axis < 3; ++axis)
-        EXPECT_GE(least.bounds.size()[axis], 0.799 * whole.bounds.size()[axis]);
-    EXPECT_GE(least.area, 0.499 * whole.area);
-    EXPECT_LT(least.faces, whole.faces / 4);
+    std::size_t faces = 0;
+    for (const double floor : {FloorOptions{}.min_shape, 0.8, 0.95}) {
+        FloorOptions floors;
+        floors.min_shape = floor;
+        const CollapseSequence sequence = sequenceOf(submesh, {}, floors, 16);
+        const Shape least = meshes::shapeOf(readAt(sequence, submesh, sequence.step_count));
+        for (int axis = 0; axis < 3; ++axis)
+            EXPECT_GE(least.bounds.size()[axis], 0.999 * floor * whole.bounds.size()[axis]);
+        EXPECT_GE(least.area, 0.999 * 0.625 * floor * whole.area);
+        EXPECT_GT(least.faces, faces) << "the floor " << floor << " holds no more than a lower one";
+        faces = least.faces;
+    }
+    EXPECT_LT(faces, whole.faces);
 }
 
 // Its sag is a hundredth of its size: the floor on extents must not hold on to it.
@@ -365,7 +372,9 @@ TEST(Collapse, ASaggingLeafOfManyInstancesMayBecomeFlat) {
     for (glm::vec3& p : leaf->positions)
         p.z = 0.02f * (p.x * (1.0f - p.x) + p.y * (1.0f - p.y));
     const Submesh submesh = submeshOf({leaf});
-    const CollapseSequence sequence = sequenceOf(submesh, {}, {}, 16);
+    FloorOptions floors;
+    floors.min_shape = 0.8;
+    const CollapseSequence sequence = sequenceOf(submesh, {}, floors, 16);
     const Shape least = meshes::shapeOf(readAt(sequence, submesh, sequence.step_count));
     EXPECT_EQ(least.faces, 4u);
     EXPECT_GE(least.bounds.size().x, 0.799);
