@@ -1,3 +1,4 @@
+#include "scene/generate.h"
 #include "simplify/algorithm.h"
 #include "tests/simplify/meshes.h"
 
@@ -94,4 +95,17 @@ TEST(Ias, BySizeNothingIsExpandedThatHasAnImportanceOfItsOwn) {
     const ScenePtr scene = scrapScene();
     const ScheduleOptions schedule{Ordering::Triangle, std::vector<double>(30, 2.0), {}};
     EXPECT_EQ((*findAlgorithm("ias")->prepare(scene, kSizeSwitch, schedule, {}))->scene(), scene);
+}
+
+// At 5 % a crown of coarse leaves shows more of the tree than fewer and larger leaves in full
+// shape.
+TEST(Ias, LeavesGetCoarseBeforeTheyGo) {
+    const ScenePtr maple = *generateScene("maple");
+    const auto instances = [&](const ParameterValues& values) {
+        const LodSourcePtr source = iasOf(maple, values);
+        const Resolved at = source->resolve({Target::Kind::Ratio, 0.05}, ByteModel(maple, {}));
+        return source->readOut(at.position, nullptr).instances;
+    };
+    EXPECT_GE(instances({}), maple->instances.size() * 99 / 100);
+    EXPECT_LT(instances({{"shape-floor", 0.8}}), maple->instances.size() * 9 / 10);
 }
