@@ -134,14 +134,12 @@ double areaAt(const CollapseSequence& sequence,
     return area;
 }
 
-// The largest factor that keeps the median part smaller than the crowd.
+// The largest factor that keeps every part smaller than half of the crowd.
 double mostGrowth(const Crowd& crowd) {
-    std::vector<double> sizes;
+    double largest = 0.0;
     for (const Part& part : crowd.parts)
-        sizes.push_back(part.bounds.diagonal());
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::ranges::nth_element(sizes, middle);
-    return *middle > 0.0 ? std::max(1.0, kLargestPart * crowd.bounds.diagonal() / *middle) : 1.0;
+        largest = std::max(largest, part.bounds.diagonal());
+    return largest > 0.0 ? std::max(1.0, kLargestPart * crowd.bounds.diagonal() / largest) : 1.0;
 }
 
 std::vector<float> factorsOf(const CollapseSequence& sequence,

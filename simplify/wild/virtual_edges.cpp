@@ -20,9 +20,9 @@ struct Candidate {
     double length2 = 0.0;
 };
 
-// The shortest edges seen lately: what is longer than another edge from one of its ends to the same
-// component is never kept, and most near pairs of faces have nothing better to offer. Forgetful, as
-// it only spares work.
+// The shortest edges seen lately: what is longer than others from both of its ends to the same
+// components is neither kept nor does it stand in the way of any, and most near pairs of faces have
+// nothing better to offer. Forgetful, as it only spares work.
 class ShortestSeen {
 public:
     bool beats(std::uint32_t vertex, std::uint32_t component, std::uint32_t other, double length2) {
@@ -94,7 +94,7 @@ struct Finder {
     }
 
     bool beaten(const Candidate& edge, ShortestSeen& seen) const {
-        return seen.beats(edge.a, component_of_vertex[edge.b], edge.b, edge.length2) ||
+        return seen.beats(edge.a, component_of_vertex[edge.b], edge.b, edge.length2) &&
                seen.beats(edge.b, component_of_vertex[edge.a], edge.a, edge.length2);
     }
 

@@ -63,6 +63,27 @@ TEST(CrowdGrowth, NoLeafGrowsBeyondHalfOfItsCrowd) {
     EXPECT_LE(left.diagonal(), 0.52 * whole.diagonal());
 }
 
+TEST(CrowdGrowth, NeitherDoesOneThatIsLargerThanTheOthers) {
+    Geometry all = *leaves(4);
+    const std::size_t first = all.positions.size() - 4;
+    const glm::vec3 middle = 0.5f * (all.positions[first] + all.positions[first + 2]);
+    for (std::size_t i = first; i < all.positions.size(); ++i) // still less than 16 x the area
+        all.positions[i] = middle + (all.positions[i] - middle) * 3.5f;
+    const Submesh submesh = meshes::submeshOf({std::make_shared<const Geometry>(all)});
+    const CollapseSequence sequence = meshes::sequenceOf(submesh);
+    const CrowdGrowth growth = growCrowds(sequence, submesh);
+    ASSERT_EQ(growth.pivots.size(), 64u); // it is one of them
+    Bounds whole;
+    Bounds grown;
+    for (std::uint32_t wedge = 0; wedge < all.positions.size(); ++wedge) {
+        whole.add(glm::dvec3(all.positions[wedge]));
+        if (wedge >= first)
+            grown.add(
+                glm::dvec3(growth.grown(0, wedge, sequence.recordedSteps(), all.positions[wedge])));
+    }
+    EXPECT_LE(grown.diagonal(), 0.501 * whole.diagonal());
+}
+
 TEST(CrowdGrowth, ClosedPartsAndFewPartsAreNoCrowd) {
     std::vector<GeometryPtr> closed;
     for (int i = 0; i < 64; ++i)

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
+#include <map>
 #include <random>
 
 using namespace lodestone;
@@ -43,6 +44,83 @@ Complex complexOf(const std::vector<GeometryPtr>& primitives, const VirtualEdgeO
     Complex complex = buildComplex(submeshOf(primitives), {});
     addVirtualEdges(complex, options, {});
     return complex;
+}
+
+using Edge = std::array<std::uint32_t, 2>; // lower vertex first
+
+std::vector<std::uint32_t> componentOfFaces(const Complex& complex) {
+    std::vector<std::uint32_t> of_face(complex.faces.size());
+    for (std::uint32_t c = 0; c < complex.componentCount(); ++c)
+        for (std::uint32_t i = complex.component_begin[c]; i < complex.component_begin[c + 1]; ++i)
+            of_face[complex.component_faces[i]] = c;
+    return of_face;
+}
+
+// What addVirtualEdges promises, by a loop over all pairs of faces. apart: without such edges.
+std::vector<Edge> edgesByBruteForce(const Complex& apart, double reach) {
+    const std::vector<std::uint32_t> component = componentOfFaces(apart);
+    const auto vertex = [&](std::size_t face, std::size_t corner) {
+        return apart.wedge_vertex[apart.faces[face][corner]];
+    };
+    const auto triangle = [&](std::size_t face) {
+        Triangle t;
+        for (std::size_t k = 0; k < 3; ++k)
+            t[k] = glm::dvec3(apart.positions[vertex(face, k)]);
+        return t;
+    };
+    const auto nearest = [](const Triangle& t, const glm::dvec3& at) {
+        std::size_t best = 0;
+        for (std::size_t k = 1; k < 3; ++k)
+            best = glm::length(t[k] - at) < glm::length(t[best] - at) ? k : best;
+        return best;
+    };
+    // The shortest by vertex and other component.
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<double, std::uint32_t>> shortest;
+    const auto offer =
+        [&](std::uint32_t from, std::uint32_t to, std::uint32_t other, double length) {
+            const auto [found, fresh] = shortest.try_emplace({from, other}, length, to);
+            if (!fresh)
+                found->second = std::min(found->second, {length, to});
+        };
+    for (std::size_t f = 0; f < apart.faces.size(); ++f)
+        for (std::size_t g = f + 1; g < apart.faces.size(); ++g) {
+            const Triangle one = triangle(f);
+            const Triangle two = triangle(g);
+            const auto gap =
+                component[f] == component[g] ? std::nullopt : triangleGap(one, two, reach);
+            if (!gap)
+                continue;
+            const std::size_t k = nearest(one, gap->at[0]);
+            const std::size_t l = nearest(two, gap->at[1]);
+            const double length = glm::length(one[k] - two[l]);
+            offer(vertex(f, k), vertex(g, l), component[g], length);
+            offer(vertex(g, l), vertex(f, k), component[f], length);
+        }
+    std::vector<Edge> mutual;
+    for (const auto& [at, edge] : shortest)
+        for (const auto& [back, other] : shortest)
+            if (back.first == edge.second && other.second == at.first && at.first < back.first)
+                mutual.push_back({at.first, back.first});
+    std::ranges::sort(mutual);
+    mutual.erase(std::unique(mutual.begin(), mutual.end()), mutual.end());
+    return mutual;
+}
+
+// Patches of four triangles, turned and thrown about in a box.
+std::vector<GeometryPtr> thrownPatches(int count, double box, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> any(-1.0f, 1.0f);
+    std::vector<GeometryPtr> patches;
+    for (int i = 0; i < count; ++i) {
+        const glm::vec3 at =
+            static_cast<float>(box) * glm::vec3(any(random), any(random), any(random));
+        Geometry patch;
+        for (int corner = 0; corner < 6; ++corner)
+            patch.positions.push_back(at + glm::vec3(any(random), any(random), any(random)));
+        patch.indices = {0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 5};
+        patches.push_back(std::make_shared<const Geometry>(patch));
+    }
+    return patches;
 }
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -134,6 +212,39 @@ TEST(VirtualEdges, EndInDifferentComponentsAndLieInTheirJoinedOne) {
         for (std::uint32_t e = joined.virtual_begin[c]; e < joined.virtual_begin[c + 1]; ++e)
             for (const std::uint32_t v : joined.virtual_edges[e])
                 EXPECT_EQ(joined.positions[v].z > 2.0f, c == 1);
+}
+
+TEST(VirtualEdges, AreThoseOfALoopOverAllPairsOfFaces) {
+    constexpr double kEpsilon = 0.05;
+    std::size_t found = 0;
+    for (unsigned seed = 1; seed <= 8; ++seed) {
+        const std::vector<GeometryPtr> patches = thrownPatches(24, 4.0, seed);
+        const Complex apart = complexOf(patches, {});
+        ASSERT_EQ(apart.componentCount(), 24u);
+        Bounds bounds;
+        for (const glm::vec3& p : apart.positions)
+            if (apart.bulk.holds(glm::dvec3(p)))
+                bounds.add(glm::dvec3(p));
+        const Complex joined = complexOf(patches, {kEpsilon, VirtualEdgeRule::Triangles});
+        std::vector<Edge> edges;
+        for (const auto& [a, b] : joined.virtual_edges)
+            edges.push_back({std::min(a, b), std::max(a, b)});
+        std::ranges::sort(edges);
+        EXPECT_EQ(edges, edgesByBruteForce(apart, kEpsilon * bounds.diagonal())) << seed;
+        found += edges.size();
+    }
+    EXPECT_GT(found, 100u); // or nothing was compared
+}
+
+TEST(VirtualEdges, AreFewAtEveryVertexOfAHeapInWhichAllIsNearAllElse) {
+    const Complex joined = complexOf(thrownPatches(300, 0.5, 3), {0.1, VirtualEdgeRule::Triangles});
+    std::vector<int> at_vertex(joined.positions.size(), 0);
+    for (const auto& [a, b] : joined.virtual_edges) {
+        ++at_vertex[a];
+        ++at_vertex[b];
+    }
+    EXPECT_LE(*std::ranges::max_element(at_vertex), 8);
+    EXPECT_GT(joined.virtual_edges.size(), joined.positions.size());
 }
 
 TEST(VirtualEdges, NoneWithoutADistance) {
