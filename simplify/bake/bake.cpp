@@ -4,24 +4,30 @@
 #include "simplify/bake/baked_group.h"
 #include "simplify/bake/encoded_atlas.h"
 #include "simplify/bake/texel_density.h"
+#include "simplify/bake/texture_choice.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cstring>
+#include <iterator>
 #include <map>
+#include <optional>
+#include <set>
 #include <tbb/parallel_for.h>
 
 namespace lodestone {
 
 namespace {
 
+constexpr std::array<TextureRef Material::*, 5> kTextures{&Material::base_color_texture,
+                                                          &Material::metallic_roughness_texture,
+                                                          &Material::normal_texture,
+                                                          &Material::occlusion_texture,
+                                                          &Material::emissive_texture};
+
 bool hasTexture(const Material& material) {
-    return std::ranges::any_of(std::array{&material.base_color_texture,
-                                          &material.metallic_roughness_texture,
-                                          &material.normal_texture,
-                                          &material.occlusion_texture,
-                                          &material.emissive_texture},
-                               [](const TextureRef* texture) { return texture->image != kNone; });
+    return std::ranges::any_of(kTextures,
+                               [&](auto slot) { return (material.*slot).image != kNone; });
 }
 
 // Everything a bake works on.
@@ -189,14 +195,13 @@ bool isFromJpeg(const Scene& scene, const BakedGroup& group, Slots slots) {
     return any;
 }
 
-// The images of a group's atlases: colour, normal, surface, emission; none where it has no pixels.
-Result<std::array<TextureRef, 4>> addImages(const Bake& bake,
-                                            SceneBuilder& builder,
-                                            const BakedGroup& group,
-                                            const BakedPixels& pixels,
-                                            const std::string& stem) {
+// A group's atlases as files: colour, normal, surface, emission; without bytes where it has none.
+using AtlasImages = std::array<Image, 4>;
+
+Result<AtlasImages>
+encodeAtlases(const Bake& bake, const BakedGroup& group, const BakedPixels& pixels) {
     struct Job {
-        std::string name;
+        const char* suffix;
         const std::vector<std::uint8_t>* rgba;
         std::vector<TextureRef Material::*> slots;
         Result<Image> image;
@@ -204,13 +209,16 @@ Result<std::array<TextureRef, 4>> addImages(const Bake& bake,
 
     const bool opaque = group.material.alpha_mode == AlphaMode::Opaque;
     std::array<Job, 4> jobs{
-        Job{stem + "_color", &pixels.base_color, {&Material::base_color_texture}, {}},
-        Job{stem + "_normal", &pixels.normal, {&Material::normal_texture}, {}},
-        Job{stem + "_surface",
+        Job{"_color", &pixels.base_color, {&Material::base_color_texture}, {}},
+        Job{"_normal", &pixels.normal, {&Material::normal_texture}, {}},
+        Job{"_surface",
             &pixels.surface,
             {&Material::metallic_roughness_texture, &Material::occlusion_texture},
             {}},
-        Job{stem + "_emission", &pixels.emissive, {&Material::emissive_texture}, {}}};
+        Job{"_emission", &pixels.emissive, {&Material::emissive_texture}, {}}};
+    const std::string stem = group.material.name.empty()
+                                 ? "atlas" + std::to_string(&group - bake.groups.data())
+                                 : group.material.name;
     tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
         if (jobs[i].rgba->empty())
             return;
@@ -219,33 +227,27 @@ Result<std::array<TextureRef, 4>> addImages(const Bake& bake,
                                 group.atlas.size_px,
                                 alpha ? Channels::Rgba : Channels::Rgb,
                                 isFromJpeg(bake.scene, group, jobs[i].slots)};
-        jobs[i].image = encodedAtlas(jobs[i].name, atlas, bake.options);
+        jobs[i].image = encodedAtlas(stem + jobs[i].suffix, atlas, bake.options);
     });
-    std::array<TextureRef, 4> refs;
+    AtlasImages images;
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         if (!jobs[i].image)
             return tl::unexpected(jobs[i].image.error());
-        if (jobs[i].rgba->empty())
-            continue;
-        refs[i].image = builder.addImage(std::move(*jobs[i].image));
-        refs[i].wrap_u = refs[i].wrap_v = TextureWrap::ClampToEdge;
+        images[i] = std::move(*jobs[i].image);
     }
-    return refs;
+    return images;
 }
 
-// Encodes a group's atlases and makes its material.
-Result<Material> addMaterial(const Bake& bake,
-                             SceneBuilder& builder,
-                             const BakedPixels& pixels,
-                             std::size_t number) {
-    const BakedGroup& group = bake.groups[number];
+// Makes a group's material with its atlases. Returns its number.
+std::uint32_t addMaterial(SceneBuilder& builder, const BakedGroup& group, AtlasImages images) {
+    std::array<TextureRef, 4> refs;
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        if (!images[i].bytes)
+            continue;
+        refs[i].image = builder.addImage(std::move(images[i]));
+        refs[i].wrap_u = refs[i].wrap_v = TextureWrap::ClampToEdge;
+    }
     Material material = group.material;
-    const std::string stem =
-        material.name.empty() ? "atlas" + std::to_string(number) : material.name;
-    const Result<std::array<TextureRef, 4>> images = addImages(bake, builder, group, pixels, stem);
-    if (!images)
-        return tl::unexpected(images.error());
-    const std::array<TextureRef, 4>& refs = *images;
     material.base_color = glm::vec4(1.0f);
     material.base_color_texture = refs[0];
     material.normal_texture = refs[1];
@@ -258,43 +260,104 @@ Result<Material> addMaterial(const Bake& bake,
         material.metallic = material.roughness = 1.0f;
     if (group.emission)
         material.emissive = glm::vec3(1.0f);
-    return material;
+    return builder.addMaterial(std::move(material));
 }
 
-// Materials of untextured primitives as they were; their textures are not used by anything.
-std::uint32_t plainMaterial(const Bake& bake,
-                            SceneBuilder& builder,
-                            std::map<std::uint32_t, std::uint32_t>& copies,
-                            std::uint32_t material) {
-    if (material == kNone)
-        return kNone;
-    const auto [found, fresh] = copies.try_emplace(material, 0);
-    if (fresh) {
-        Material copy = bake.scene.materials[material];
-        copy.base_color_texture = copy.normal_texture = copy.occlusion_texture = {};
-        copy.metallic_roughness_texture = copy.emissive_texture = {};
-        found->second = builder.addMaterial(std::move(copy));
+std::uint64_t bytesOf(const Image& image) {
+    return image.bytes ? image.bytes->size() : 0;
+}
+
+// Whether the texture coordinates that are left show no less than the atlases, and cost no more.
+bool keepsTextures(const Bake& bake,
+                   const BakedGroup& group,
+                   const BakedPixels& pixels,
+                   const AtlasImages& atlases,
+                   const TextureSampler& sampler) {
+    std::set<std::uint32_t> used;
+    for (const BakedPart& part : group.parts) {
+        const std::uint32_t material =
+            bake.scene.submeshes[part.submesh].primitives[part.primitive].material;
+        for (const auto slot : kTextures)
+            if (material != kNone)
+                used.insert((bake.scene.materials[material].*slot).image);
     }
-    return found->second;
+    std::uint64_t kept_bytes = 0;
+    for (const std::uint32_t image : used)
+        kept_bytes += image < bake.scene.images.size() ? bytesOf(bake.scene.images[image]) : 0;
+    std::uint64_t atlas_bytes = 0;
+    for (const Image& image : atlases)
+        atlas_bytes += bytesOf(image);
+    if (kept_bytes > atlas_bytes)
+        return false;
+    const TextureErrors errors = textureErrors(group, pixels, bake.sources, sampler);
+    return errors.kept <= errors.baked;
 }
 
+// The original's materials as far as primitives go on using them.
+class OldMaterials {
+public:
+    OldMaterials(const Scene& scene, SceneBuilder& builder) : scene_(scene), builder_(builder) {}
+
+    // Of untextured primitives: its textures are not used by anything.
+    std::uint32_t plain(std::uint32_t material) {
+        return copied(material, plain_, [](TextureRef& texture) { texture = {}; });
+    }
+
+    std::uint32_t textured(std::uint32_t material) {
+        return copied(material, textured_, [this](TextureRef& texture) {
+            if (texture.image >= scene_.images.size())
+                return;
+            const auto [found, fresh] = images_.try_emplace(texture.image, 0);
+            if (fresh)
+                found->second = builder_.addImage(scene_.images[texture.image]);
+            texture.image = found->second;
+        });
+    }
+
+private:
+    using Numbers = std::map<std::uint32_t, std::uint32_t>;
+
+    template <class Adapt>
+    std::uint32_t copied(std::uint32_t material, Numbers& copies, Adapt adapt) {
+        if (material == kNone)
+            return kNone;
+        const auto [found, fresh] = copies.try_emplace(material, 0);
+        if (fresh) {
+            Material copy = scene_.materials[material];
+            for (const auto slot : kTextures)
+                adapt(copy.*slot);
+            found->second = builder_.addMaterial(std::move(copy));
+        }
+        return found->second;
+    }
+
+    const Scene& scene_;
+    SceneBuilder& builder_;
+    Numbers plain_;
+    Numbers textured_;
+    Numbers images_;
+};
+
+// material_of_group: nullopt: its primitives keep their textures.
 void addSubmeshes(const Bake& bake,
                   const Lod& lod,
-                  std::span<const std::uint32_t> material_of_group,
+                  std::span<const std::optional<std::uint32_t>> material_of_group,
                   SceneBuilder& builder) {
-    std::map<std::uint32_t, std::uint32_t> copies;
+    OldMaterials old(bake.scene, builder);
     for (std::uint32_t s = 0; s < bake.scene.submeshes.size(); ++s) {
         Submesh submesh = bake.scene.submeshes[s];
         for (std::uint32_t p = 0; p < submesh.primitives.size(); ++p) {
             Primitive& primitive = submesh.primitives[p];
             const std::size_t group = bake.primitive_group[s][p];
-            if (group == Bake::kPlain) {
+            const bool plain = group == Bake::kPlain;
+            if (plain || !material_of_group[group]) {
                 primitive.geometry = lod.submeshes[s].primitives[p];
-                primitive.material = plainMaterial(bake, builder, copies, primitive.material);
+                primitive.material =
+                    plain ? old.plain(primitive.material) : old.textured(primitive.material);
                 continue;
             }
             primitive.geometry = unfold(bake, s, p);
-            primitive.material = material_of_group[group];
+            primitive.material = *material_of_group[group];
             primitive.position_type = ComponentType::Float32;
             primitive.position_normalized = false;
         }
@@ -396,22 +459,33 @@ Result<BakedScene> bakeTextures(const Scene& scene,
     if (!pixels)
         return tl::unexpected(pixels.error());
     SceneBuilder builder(scene.name);
-    std::vector<std::uint32_t> material_of_group;
+    std::vector<std::optional<std::uint32_t>> material_of_group;
     BakedScene baked;
     for (std::size_t g = 0; g < bake.groups.size(); ++g) {
-        Result<Material> material = addMaterial(bake, builder, (*pixels)[g], g);
-        if (!material)
-            return tl::unexpected(material.error());
-        material_of_group.push_back(builder.addMaterial(std::move(*material)));
-        baked.atlases.push_back(describeAtlas(bake, bake.groups[g], sampler.images()));
-        baked.atlases.back().material = material_of_group.back();
-        const double density = bake.groups[g].atlas.texels_per_unit;
-        baked.texels_per_unit = g == 0 ? density : std::min(baked.texels_per_unit, density);
+        const BakedGroup& group = bake.groups[g];
+        Result<AtlasImages> images = encodeAtlases(bake, group, (*pixels)[g]);
+        if (!images)
+            return tl::unexpected(images.error());
+        material_of_group.emplace_back();
+        if (options.keep_better && keepsTextures(bake, group, (*pixels)[g], *images, sampler)) {
+            baked.notes.push_back("material '" + group.material.name +
+                                  "' keeps its textures: they show the original no worse than an "
+                                  "atlas of " +
+                                  std::to_string(group.atlas.size_px) + " pixels");
+            continue;
+        }
+        material_of_group.back() = addMaterial(builder, group, std::move(*images));
+        baked.atlases.push_back(describeAtlas(bake, group, sampler.images()));
+        baked.atlases.back().material = *material_of_group.back();
     }
+    for (const BakedAtlas& atlas : baked.atlases)
+        baked.texels_per_unit = baked.texels_per_unit > 0.0
+                                    ? std::min(baked.texels_per_unit, atlas.texels_per_unit)
+                                    : atlas.texels_per_unit;
     addSubmeshes(bake, lod, material_of_group, builder);
     addInstances(scene, lod, builder);
     builder.setFileBytes(scene.file_bytes);
-    baked.notes = sampler.notes();
+    std::ranges::copy(sampler.notes(), std::back_inserter(baked.notes));
     if (hasMotion(scene))
         baked.notes.emplace_back("animations and skins are left out of transferred textures");
     baked.scene = builder.finish();

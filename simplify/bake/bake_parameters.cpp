@@ -9,6 +9,7 @@ namespace {
 constexpr std::string_view kTexture = "texture";
 constexpr std::string_view kAtlas = "atlas";
 constexpr std::string_view kMerge = "merge-materials";
+constexpr std::string_view kBetter = "keep-better";
 constexpr std::string_view kFormat = "atlas-format";
 constexpr std::string_view kQuality = "jpeg-quality";
 
@@ -43,6 +44,11 @@ void addBakeParameters(std::vector<ParameterInfo>& parameters) {
     ParameterInfo merge = made(
         kMerge, "One atlas for all", "Materials that blend alike share one atlas and become one.");
     merge.kind = ParameterInfo::Kind::Toggle;
+    ParameterInfo better = made(kBetter,
+                                "Keep where better",
+                                "Materials whose textures still show the original at least as well "
+                                "as a new atlas, in no more bytes, keep them: tiled ones, mostly.");
+    better.kind = ParameterInfo::Kind::Toggle;
     ParameterInfo format =
         made(kFormat,
              "Atlas format",
@@ -58,7 +64,7 @@ void addBakeParameters(std::vector<ParameterInfo>& parameters) {
     quality.minimum = 1.0;
     quality.maximum = 100.0;
     quality.fallback = options.jpeg_quality;
-    parameters.insert(parameters.end(), {texture, atlas, merge, format, quality});
+    parameters.insert(parameters.end(), {texture, atlas, merge, better, format, quality});
 }
 
 std::optional<BakeOptions> bakeOptions(const Algorithm& algorithm, const ParameterValues& values) {
@@ -70,6 +76,7 @@ std::optional<BakeOptions> bakeOptions(const Algorithm& algorithm, const Paramet
     BakeOptions options;
     options.atlas_px = static_cast<std::uint32_t>(value(kAtlas));
     options.merge_materials = value(kMerge) > 0.5;
+    options.keep_better = value(kBetter) > 0.5;
     options.format = static_cast<AtlasFormat>(value(kFormat));
     options.jpeg_quality = static_cast<int>(value(kQuality));
     return options;

@@ -1,5 +1,6 @@
 #include "simplify/bake/baked_group.h"
 
+#include "simplify/bake/closest_point.h"
 #include "simplify/measure/srgb.h"
 
 #include <algorithm>
@@ -54,6 +55,30 @@ glm::vec3 across(const glm::vec3& n) {
 }
 
 } // namespace
+
+glm::vec3 weightsOf(const BakedTriangle& triangle, double along_base, double along_height) {
+    glm::vec3 weights;
+    weights[triangle.order[0]] = static_cast<float>(1.0 - along_base - along_height);
+    weights[triangle.order[1]] = static_cast<float>(along_base);
+    weights[triangle.order[2]] = static_cast<float>(along_height);
+    return weights;
+}
+
+TracedTriangle::TracedTriangle(const BakeSource& source, const BakedTriangle& triangle)
+    : source_(source), face_(source.map->facesOf(triangle.primitive)[triangle.face]),
+      corners_(source.map->triangle(face_)),
+      normal_(glm::cross(corners_[1] - corners_[0], corners_[2] - corners_[0])) {}
+
+SurfaceLook TracedTriangle::lookAt(const glm::vec3& weights, const TextureSampler& sampler) const {
+    const Complex& complex = source_.sequence->complex;
+    const glm::vec3 point = blended(corners_, weights);
+    const SuccessiveMap::Hit hit = source_.map->trace(face_, point, normal_);
+    const Primitive& primitive = source_.submesh->primitives[complex.primitiveOfFace(hit.face)];
+    std::array<std::uint32_t, 3> vertices;
+    for (std::size_t k = 0; k < 3; ++k)
+        vertices[k] = complex.wedge_source[complex.faces[hit.face][k]];
+    return sampler.at(*primitive.geometry, primitive.material, vertices, hit.weights);
+}
 
 TriangleFrame frameOf(const BakeSource& source, const BakedTriangle& triangle, bool turned) {
     const auto corners = cornersOf(source, triangle);
@@ -149,11 +174,8 @@ bool bakeTriangle(const BakedGroup& group,
                   const std::function<bool(std::size_t)>& done) {
     const BakedTriangle& triangle = group.triangles[index];
     const AtlasPlace& place = group.atlas.places[index];
-    const auto corners = cornersOf(source, triangle);
-    const glm::vec3 flat = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+    const TracedTriangle traced(source, triangle);
     const TriangleFrame frame = frameOf(source, triangle, place.turned);
-    const std::uint32_t face = source.map->facesOf(triangle.primitive)[triangle.face];
-    const Complex& complex = source.sequence->complex;
     std::size_t texels = 0;
     bool goes_on = true;
     forEachTexel(place, [&](std::uint32_t x, std::uint32_t y, double u, double v) {
@@ -161,21 +183,11 @@ bool bakeTriangle(const BakedGroup& group,
             goes_on = goes_on && done(0);
         if (!goes_on)
             return;
-        glm::vec3 weights;
-        weights[triangle.order[0]] = static_cast<float>(1.0 - u - v);
-        weights[triangle.order[1]] = static_cast<float>(u);
-        weights[triangle.order[2]] = static_cast<float>(v);
-        const glm::vec3 point =
-            corners[0] * weights.x + corners[1] * weights.y + corners[2] * weights.z;
-        const SuccessiveMap::Hit hit = source.map->trace(face, point, flat);
-        const Primitive& primitive = source.submesh->primitives[complex.primitiveOfFace(hit.face)];
-        std::array<std::uint32_t, 3> vertices;
-        for (std::size_t k = 0; k < 3; ++k)
-            vertices[k] = complex.wedge_source[complex.faces[hit.face][k]];
-        const SurfaceLook look =
-            writer.sampler.at(*primitive.geometry, primitive.material, vertices, hit.weights);
+        const glm::vec3 weights = weightsOf(triangle, u, v);
+        const SurfaceLook look = traced.lookAt(weights, writer.sampler);
         const std::size_t at = 4 * (std::size_t{y} * group.atlas.size_px + x);
-        writer.write(at, look, group.normals ? inFrame(frame, weights, look.normal) : flat);
+        writer.write(
+            at, look, group.normals ? inFrame(frame, weights, look.normal) : traced.normal());
     });
     return goes_on && done(1);
 }

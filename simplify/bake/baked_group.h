@@ -61,6 +61,26 @@ FlatTriangle flatten(const std::array<glm::vec3, 3>& corners, std::array<std::ui
 
 TriangleFrame frameOf(const BakeSource& source, const BakedTriangle& triangle, bool mirrored);
 
+// Weights of a triangle's corners at a point given by its shares of base and height.
+glm::vec3 weightsOf(const BakedTriangle& triangle, double along_base, double along_height);
+
+// A triangle whose points are looked up on the original. source outlives it. Any thread.
+class TracedTriangle {
+public:
+    TracedTriangle(const BakeSource& source, const BakedTriangle& triangle);
+
+    const glm::vec3& normal() const { return normal_; } // as long as twice the area
+
+    // What the original shows where a point of the triangle came from. weights: of its corners.
+    SurfaceLook lookAt(const glm::vec3& weights, const TextureSampler& sampler) const;
+
+private:
+    const BakeSource& source_;
+    std::uint32_t face_;
+    std::array<glm::vec3, 3> corners_;
+    glm::vec3 normal_;
+};
+
 // Texture coordinates of a triangle's corners, in their order.
 std::array<glm::vec2, 3> coordinatesOf(const BakedGroup& group, std::size_t triangle);
 

@@ -76,13 +76,33 @@ struct Transferred {
     Result<BakedScene> baked;
 };
 
-Transferred transfer(const ScenePtr& scene, double ratio, const JobContext& job = {}) {
+// A flat sheet that repeats a picture more often than an atlas of 512 pixels has texels for.
+ScenePtr tiledSheet() {
+    const GeometryPtr flat = grid(12);
+    std::vector<float> uv;
+    for (const glm::vec3& p : flat->positions)
+        uv.insert(uv.end(), {20.0f * p.x, 20.0f * p.y});
+    SceneBuilder builder("tiled");
+    Material material;
+    material.name = "tiles";
+    material.base_color_texture.image = builder.addImage(stripes());
+    Primitive primitive;
+    primitive.material = builder.addMaterial(material);
+    primitive.geometry = withAttribute(*flat, "TEXCOORD_0", uv);
+    builder.addNode("sheet", kNone, Trs{}, builder.addSubmesh({"sheet", {primitive}}));
+    return builder.finish();
+}
+
+Transferred transfer(const ScenePtr& scene,
+                     double ratio,
+                     const JobContext& job = {},
+                     const BakeOptions& asked = {}) {
     const ParameterValues values{{"floors", 0.0}};
     Transferred result{*wildAlgorithm().prepare(scene, values, {}, {}), {}, {}};
     const ByteModel bytes(result.source->scene(), {});
     result.lod = result.source->readOut(
         result.source->resolve({Target::Kind::Ratio, ratio}, bytes).position, nullptr);
-    BakeOptions options;
+    BakeOptions options = asked;
     options.atlas_px = 512;
     result.baked = result.source->transferred(result.lod, options, job);
     return result;
@@ -223,6 +243,38 @@ TEST(Bake, ShowsTheColoursOfTheSurfaceWhereTextureCoordinatesWouldBleed) {
     const auto moved = measureColorDistance({scene.get(), &full}, {&baked, &all}, {20'000, 1}, {});
     ASSERT_TRUE(kept && moved);
     EXPECT_LT(moved->mean, 0.4 * kept->mean);
+}
+
+TEST(Bake, MaterialsKeepTexturesThatStillShowTheOriginalOnlyWhereAsked) {
+    const ScenePtr scene = tiledSheet();
+    BakeOptions keep;
+    keep.keep_better = true;
+    const Transferred kept = transfer(scene, 1.0, {}, keep);
+    ASSERT_TRUE(kept.baked) << kept.baked.error().message;
+    EXPECT_TRUE(kept.baked->atlases.empty());
+    EXPECT_EQ(kept.baked->texels_per_unit, 0.0);
+    ASSERT_EQ(kept.baked->notes.size(), 1u);
+    EXPECT_NE(kept.baked->notes[0].find("'tiles' keeps its textures"), std::string::npos);
+    ASSERT_EQ(kept.baked->scene->images.size(), 1u);
+    EXPECT_EQ(kept.baked->scene->images[0].bytes, scene->images[0].bytes);
+    const Lod full = fullLod(*scene);
+    const Lod all = fullLod(*kept.baked->scene);
+    const auto apart = measureColorDistance(
+        {scene.get(), &full}, {kept.baked->scene.get(), &all}, {20'000, 1}, {});
+    ASSERT_TRUE(apart);
+    EXPECT_LT(apart->mean, 0.01);
+    const Transferred moved = transfer(scene, 1.0);
+    ASSERT_TRUE(moved.baked);
+    EXPECT_EQ(moved.baked->atlases.size(), 1u);
+}
+
+TEST(Bake, MaterialsWhoseCoordinatesBleedGetAnAtlasEvenThen) {
+    BakeOptions keep;
+    keep.keep_better = true;
+    const Transferred moved = transfer(stripedSphere(), 0.1, {}, keep);
+    ASSERT_TRUE(moved.baked) << moved.baked.error().message;
+    EXPECT_EQ(moved.baked->atlases.size(), 1u);
+    EXPECT_TRUE(moved.baked->notes.empty());
 }
 
 TEST(Bake, UnusedTexelsNeverReachTheSurface) {

@@ -116,12 +116,13 @@ TEST(BakeParameters, EveryEdgeCollapseOffersATransferAndKeepsTexturesUnlessAsked
         const ParameterValues asked{{"texture", 1.0},
                                     {"atlas", 2048.0},
                                     {"merge-materials", 1.0},
+                                    {"keep-better", 1.0},
                                     {"atlas-format", 2.0},
                                     {"jpeg-quality", 80.0}};
         const std::optional<BakeOptions> options = bakeOptions(algorithm, asked);
         ASSERT_EQ(options.has_value(), collapses) << algorithm.id;
         if (collapses) {
-            EXPECT_EQ(*options, (BakeOptions{2048, true, {}, AtlasFormat::Jpeg, 80}));
+            EXPECT_EQ(*options, (BakeOptions{2048, true, true, {}, AtlasFormat::Jpeg, 80}));
         }
     }
 }
