@@ -3,9 +3,11 @@
 #include "scene/expand.h"
 #include "scene/import.h"
 #include "simplify/bake/bake_parameters.h"
+#include "simplify/bake/baked_size.h"
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <fmt/core.h>
 #include <iterator>
 
@@ -58,25 +60,104 @@ RunOutcome runPrepared(const RunRequest& request, const LodSourcePtr& source) {
     return outcome;
 }
 
-// The LOD becomes a scene of its own, with new textures.
-Result<void> transferTextures(RunOutcome& outcome,
-                              const BakeOptions& options,
-                              const ExportOptions& export_options,
-                              const JobContext& job) {
-    const Stopwatch watch;
-    Result<BakedScene> baked = outcome.source->transferred(*outcome.lod, options, job);
+// The LOD as a scene of its own, with new textures, and the size of its file.
+struct Transferred {
+    BakedScene baked;
+    std::shared_ptr<const Lod> lod;
+    std::uint64_t bytes = 0;
+};
+
+Result<Transferred> transferOnce(const LodSource& source,
+                                 const Lod& lod,
+                                 const BakeOptions& options,
+                                 const ExportOptions& export_options,
+                                 const JobContext& job) {
+    Result<BakedScene> baked = source.transferred(lod, options, job);
     if (!baked)
         return tl::unexpected<Error>(std::move(baked.error()));
-    outcome.scene = std::move(baked->scene);
-    outcome.lod = std::make_shared<const Lod>(fullLod(*outcome.scene));
-    const ByteModel bytes(outcome.scene, export_options);
-    outcome.predicted_bytes = bytes.bytes(shapeOf(*outcome.scene, *outcome.lod));
-    outcome.bytes = outcome.predicted_bytes;
+    Transferred made{std::move(*baked), nullptr, 0};
+    made.lod = std::make_shared<const Lod>(fullLod(*made.baked.scene));
+    const ByteModel bytes(made.baked.scene, export_options);
+    made.bytes = bytes.bytes(shapeOf(*made.baked.scene, *made.lod));
+    return made;
+}
+
+// What new textures add to a file, or take off it, decides which level a size leaves room for, and
+// only making them tells. Guesses, then halves the logarithm of the triangles between levels that
+// fit and those that do not; where not even the coarsest fits, atlases are halved.
+Result<Transferred> transferWithin(const RunRequest& request,
+                                   const RunOutcome& outcome,
+                                   BakeOptions options,
+                                   const JobContext& job) {
+    constexpr int kTries = 12;      // from 8192 to 256 pixels takes five halvings
+    constexpr double kClose = 0.95; // of the size wanted: not worth another transfer
+    constexpr std::uint32_t kSmallestAtlas = 256;
+    const LodSource& source = *outcome.source;
+    const ByteModel kept(source.scene(), request.export_options);
+    const double wanted = request.target.value;
+    const auto before = static_cast<double>(outcome.predicted_bytes);
+    const auto guess = static_cast<double>(
+        estimateBakedBytes(*source.scene(), *outcome.lod, options, outcome.predicted_bytes));
+    Target target{Target::Kind::Bytes, std::max(before + wanted - guess, 0.0)};
+    const auto all = static_cast<double>(source.trianglesAt(0));
+    double fits = 0.0;       // triangles of the finest level known to fit; 0: none
+    double over = all + 1.0; // of the coarsest that does not
+    std::optional<Transferred> best;
+    for (int tried = 1;; ++tried) {
+        const Resolved at = source.resolve(target, kept);
+        const Lod lod = source.readOut(at.position, nullptr);
+        Result<Transferred> made = transferOnce(source, lod, options, request.export_options, job);
+        if (!made)
+            return made;
+        const auto triangles = static_cast<double>(lod.triangles);
+        const auto bytes = static_cast<double>(made->bytes);
+        const bool is_within = bytes <= wanted;
+        const bool is_new = triangles > fits && triangles < over;
+        if (is_within && triangles >= fits)
+            best = *made;
+        (is_within ? fits : over) = triangles;
+        const bool is_coarsest = at.position + 1 == source.positionCount();
+        const bool is_lost = !best && is_coarsest && options.atlas_px == kSmallestAtlas;
+        const bool is_close = is_within && (bytes >= kClose * wanted || at.position == 0);
+        if (is_lost || is_close || !is_new || tried == kTries)
+            return best ? std::move(*best) : made;
+        if (!best && is_coarsest) {
+            options.atlas_px = std::max(options.atlas_px / 2, kSmallestAtlas);
+            over = all + 1.0;
+        }
+        target = {Target::Kind::Triangles, best ? std::sqrt(fits * over) : 0.0};
+    }
+}
+
+Result<void>
+transferTextures(const RunRequest& request, RunOutcome& outcome, const JobContext& job) {
+    const std::optional<BakeOptions> options = bakeOptions(*request.algorithm, request.parameters);
+    if (!options)
+        return {};
+    const Stopwatch watch;
+    const bool within = request.target.kind == Target::Kind::Bytes;
+    Result<Transferred> made =
+        within ? transferWithin(request, outcome, *options, job)
+               : transferOnce(*outcome.source, *outcome.lod, *options, request.export_options, job);
+    if (!made)
+        return tl::unexpected<Error>(std::move(made.error()));
+    outcome.scene = std::move(made->baked.scene);
+    outcome.lod = std::move(made->lod);
+    outcome.predicted_bytes = made->bytes;
+    outcome.bytes = made->bytes;
     outcome.seconds.readout += watch.seconds();
-    std::ranges::move(baked->notes, std::back_inserter(outcome.notes));
-    if (baked->texels_per_unit > 0.0)
+    if (within) // what was told of the size counted the original's textures
+        outcome.notes = outcome.source->notes();
+    std::ranges::move(made->baked.notes, std::back_inserter(outcome.notes));
+    if (made->baked.texels_per_unit > 0.0)
         outcome.notes.push_back(
-            fmt::format("transferred textures: {:.4g} texels a unit", baked->texels_per_unit));
+            fmt::format("transferred textures: {:.4g} texels a unit", made->baked.texels_per_unit));
+    if (within) {
+        outcome.target_met = static_cast<double>(made->bytes) <= request.target.value;
+        if (!outcome.target_met)
+            outcome.notes.emplace_back("even the smallest atlases leave no room for the size that "
+                                       "was asked for; try atlas-format=jpeg or merge-materials");
+    }
     return {};
 }
 
@@ -107,10 +188,8 @@ Result<RunOutcome> runAlgorithm(const RunRequest& request, const JobContext& job
         if (!source)
             return tl::unexpected<Error>(std::move(source.error()));
         outcome = runPrepared(request, *source);
-        if (const auto bake = bakeOptions(*request.algorithm, request.parameters))
-            if (Result<void> done = transferTextures(outcome, *bake, request.export_options, job);
-                !done)
-                return tl::unexpected<Error>(std::move(done.error()));
+        if (Result<void> done = transferTextures(request, outcome, job); !done)
+            return tl::unexpected<Error>(std::move(done.error()));
     }
     if (job.stopRequested())
         return cancelled();
