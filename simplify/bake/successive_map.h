@@ -4,7 +4,8 @@
 // the split edge's one-ring. The point itself stays where it was sampled, so nothing drifts; that
 // only one-rings are searched keeps it on its own sheet, where a closest point of the whole surface
 // may lie on the far side of a thin wall. What the one-rings have missed is found at the end, by a
-// search of the original surface that faces the same way (NearestFace).
+// search of the original surface that faces the same way (NearestFace); splits of a surface that is
+// much finer than the simplified one are left to it.
 #include "simplify/bake/nearest_face.h"
 #include "simplify/collapse/sequence.h"
 
@@ -45,7 +46,7 @@ private:
     // A triangle of a split's one-ring, as it lies before the collapse.
     struct Candidate {
         std::uint32_t face = 0;
-        float radius = 0.0f; // about the first corner
+        float radius = 0.0f; // about the centre
         std::array<glm::vec3, 3> corners;
     };
 
