@@ -12,7 +12,7 @@ struct WildTable {
 };
 
 // Models whose name passes, at 10, 1 and 0.1 % of their triangles. What fails is told on stderr and
-// left out. Returns the exit code.
+// named in its row. Returns the exit code.
 int addWildTable(WildTable& table, Inputs& inputs, const TitleFilter& wanted);
 
 } // namespace lodestone::bench
