@@ -132,7 +132,7 @@ std::optional<TriangleGap> triangleGap(const Triangle& a, const Triangle& b, dou
     if (crossed)
         return TriangleGap{0.0, {*crossed, *crossed}};
     Nearest best{below, below * below, {}};
-    for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < 3 && best.distance > 0.0; ++k) {
         if (!off_b.farther(k, best.distance))
             best.offer(a[k], closestPoint(a[k], b));
         if (!off_a.farther(k, best.distance))

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
-#include <optional>
 #include <tbb/parallel_for.h>
 #include <tuple>
 
@@ -86,16 +85,22 @@ struct Finder {
 
     // The corner nearest to a point.
     static std::size_t cornerAt(const Triangle& t, const glm::dvec3& at) {
-        std::size_t best = 0;
-        for (std::size_t k = 1; k < 3; ++k)
-            if (glm::length(t[k] - at) < glm::length(t[best] - at))
-                best = k;
-        return best;
+        const auto distance2 = [&](std::size_t k) { return glm::dot(t[k] - at, t[k] - at); };
+        const std::size_t best = distance2(1) < distance2(0) ? 1 : 0;
+        return distance2(2) < distance2(best) ? 2 : best;
     }
 
     bool beaten(const Candidate& edge, ShortestSeen& seen) const {
         return seen.beats(edge.a, component_of_vertex[edge.b], edge.b, edge.length2) &&
                seen.beats(edge.b, component_of_vertex[edge.a], edge.a, edge.length2);
+    }
+
+    void add(const Candidate& edge, ShortestSeen& seen, std::vector<Candidate>& out) const {
+        if (beaten(edge, seen))
+            return;
+        seen.add(edge.a, component_of_vertex[edge.b], edge.b, edge.length2);
+        seen.add(edge.b, component_of_vertex[edge.a], edge.a, edge.length2);
+        out.push_back(edge);
     }
 
     void offer(std::uint32_t face,
@@ -104,31 +109,19 @@ struct Finder {
                std::vector<Candidate>& out) const {
         const Triangle one = triangle(face);
         const Triangle two = triangle(other);
-        std::array<std::optional<Candidate>, 9> edges; // between corners, unless beaten
-        for (std::size_t k = 0; k < 3; ++k)
-            for (std::size_t l = 0; l < 3; ++l) {
-                const glm::dvec3 gap = one[k] - two[l];
-                const Candidate edge{vertex(face, k), vertex(other, l), glm::dot(gap, gap)};
-                if (!beaten(edge, seen))
-                    edges[3 * k + l] = edge;
-            }
-        if (std::ranges::none_of(edges, [](const auto& edge) { return edge.has_value(); }))
-            return;
+        const auto edge = [&](std::size_t k, std::size_t l) {
+            const glm::dvec3 gap = one[k] - two[l];
+            return Candidate{vertex(face, k), vertex(other, l), glm::dot(gap, gap)};
+        };
         if (rule == VirtualEdgeRule::Triangles) {
-            const auto gap = triangleGap(one, two, reach);
-            if (!gap)
-                return;
-            const std::size_t at = 3 * cornerAt(one, gap->at[0]) + cornerAt(two, gap->at[1]);
-            for (std::size_t i = 0; i < edges.size(); ++i)
-                if (i != at)
-                    edges[i].reset();
+            if (const auto gap = triangleGap(one, two, reach))
+                add(edge(cornerAt(one, gap->at[0]), cornerAt(two, gap->at[1])), seen, out);
+            return;
         }
-        for (const std::optional<Candidate>& edge : edges)
-            if (edge && (rule == VirtualEdgeRule::Triangles || edge->length2 < reach * reach)) {
-                seen.add(edge->a, component_of_vertex[edge->b], edge->b, edge->length2);
-                seen.add(edge->b, component_of_vertex[edge->a], edge->a, edge->length2);
-                out.push_back(*edge);
-            }
+        for (std::size_t k = 0; k < 3; ++k)
+            for (std::size_t l = 0; l < 3; ++l)
+                if (const Candidate near = edge(k, l); near.length2 < reach * reach)
+                    add(near, seen, out);
     }
 };
 
