@@ -111,7 +111,7 @@ void drawFailure(const Ui& ui, const Lane& lane) {
 void drawResult(const Ui& ui, const PanelInput& input, WindowState& state, const Lane& lane) {
     const LaneTexturesPtr& textures = lane.status.textures;
     if (textures->previews.empty()) {
-        ImGui::TextDisabled("Nothing here has a texture.");
+        ImGui::TextDisabled("No new atlas was needed.");
         return;
     }
     const std::vector<BakedAtlas>& atlases = textures->baked.atlases;

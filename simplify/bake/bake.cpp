@@ -2,7 +2,7 @@
 
 #include "scene/scene_builder.h"
 #include "simplify/bake/baked_group.h"
-#include "simplify/bake/encoded_atlas.h"
+#include "simplify/bake/group_images.h"
 #include "simplify/bake/texel_density.h"
 #include "simplify/bake/texture_choice.h"
 
@@ -12,21 +12,14 @@
 #include <iterator>
 #include <map>
 #include <optional>
-#include <set>
 #include <tbb/parallel_for.h>
 
 namespace lodestone {
 
 namespace {
 
-constexpr std::array<TextureRef Material::*, 5> kTextures{&Material::base_color_texture,
-                                                          &Material::metallic_roughness_texture,
-                                                          &Material::normal_texture,
-                                                          &Material::occlusion_texture,
-                                                          &Material::emissive_texture};
-
 bool hasTexture(const Material& material) {
-    return std::ranges::any_of(kTextures,
+    return std::ranges::any_of(kTextureSlots,
                                [&](auto slot) { return (material.*slot).image != kNone; });
 }
 
@@ -60,7 +53,7 @@ void addToGroup(Bake& bake, std::uint32_t submesh, std::uint32_t primitive_index
     const auto [found, fresh] =
         bake.group_of.try_emplace(groupKey(bake, primitive.material), bake.groups.size());
     if (fresh)
-        bake.groups.emplace_back();
+        bake.groups.emplace_back().number = found->second;
     BakedGroup& group = bake.groups[found->second];
     const Material material =
         primitive.material == kNone ? Material{} : bake.scene.materials[primitive.material];
@@ -175,69 +168,6 @@ GeometryPtr unfold(const Bake& bake, std::uint32_t s, std::uint32_t p) {
     return geometry;
 }
 
-using Slots = std::span<TextureRef Material::*const>;
-
-// Whether everything that a group reads in those slots is JPEG.
-bool isFromJpeg(const Scene& scene, const BakedGroup& group, Slots slots) {
-    bool any = false;
-    for (const BakedPart& part : group.parts) {
-        const std::uint32_t material =
-            scene.submeshes[part.submesh].primitives[part.primitive].material;
-        for (const auto slot : material == kNone ? Slots() : slots) {
-            const std::uint32_t image = (scene.materials[material].*slot).image;
-            if (image >= scene.images.size())
-                continue;
-            if (!isJpeg(scene.images[image]))
-                return false;
-            any = true;
-        }
-    }
-    return any;
-}
-
-// A group's atlases as files: colour, normal, surface, emission; without bytes where it has none.
-using AtlasImages = std::array<Image, 4>;
-
-Result<AtlasImages>
-encodeAtlases(const Bake& bake, const BakedGroup& group, const BakedPixels& pixels) {
-    struct Job {
-        const char* suffix;
-        const std::vector<std::uint8_t>* rgba;
-        std::vector<TextureRef Material::*> slots;
-        Result<Image> image;
-    };
-
-    const bool opaque = group.material.alpha_mode == AlphaMode::Opaque;
-    std::array<Job, 4> jobs{
-        Job{"_color", &pixels.base_color, {&Material::base_color_texture}, {}},
-        Job{"_normal", &pixels.normal, {&Material::normal_texture}, {}},
-        Job{"_surface",
-            &pixels.surface,
-            {&Material::metallic_roughness_texture, &Material::occlusion_texture},
-            {}},
-        Job{"_emission", &pixels.emissive, {&Material::emissive_texture}, {}}};
-    const std::string stem = group.material.name.empty()
-                                 ? "atlas" + std::to_string(&group - bake.groups.data())
-                                 : group.material.name;
-    tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
-        if (jobs[i].rgba->empty())
-            return;
-        const bool alpha = i == 0 && !opaque;
-        const AtlasPixels atlas{*jobs[i].rgba,
-                                group.atlas.size_px,
-                                alpha ? Channels::Rgba : Channels::Rgb,
-                                isFromJpeg(bake.scene, group, jobs[i].slots)};
-        jobs[i].image = encodedAtlas(stem + jobs[i].suffix, atlas, bake.options);
-    });
-    AtlasImages images;
-    for (std::size_t i = 0; i < jobs.size(); ++i) {
-        if (!jobs[i].image)
-            return tl::unexpected(jobs[i].image.error());
-        images[i] = std::move(*jobs[i].image);
-    }
-    return images;
-}
-
 // Makes a group's material with its atlases. Returns its number.
 std::uint32_t addMaterial(SceneBuilder& builder, const BakedGroup& group, AtlasImages images) {
     std::array<TextureRef, 4> refs;
@@ -263,31 +193,13 @@ std::uint32_t addMaterial(SceneBuilder& builder, const BakedGroup& group, AtlasI
     return builder.addMaterial(std::move(material));
 }
 
-std::uint64_t bytesOf(const Image& image) {
-    return image.bytes ? image.bytes->size() : 0;
-}
-
 // Whether the texture coordinates that are left show no less than the atlases, and cost no more.
 bool keepsTextures(const Bake& bake,
                    const BakedGroup& group,
                    const BakedPixels& pixels,
                    const AtlasImages& atlases,
                    const TextureSampler& sampler) {
-    std::set<std::uint32_t> used;
-    for (const BakedPart& part : group.parts) {
-        const std::uint32_t material =
-            bake.scene.submeshes[part.submesh].primitives[part.primitive].material;
-        for (const auto slot : kTextures)
-            if (material != kNone)
-                used.insert((bake.scene.materials[material].*slot).image);
-    }
-    std::uint64_t kept_bytes = 0;
-    for (const std::uint32_t image : used)
-        kept_bytes += image < bake.scene.images.size() ? bytesOf(bake.scene.images[image]) : 0;
-    std::uint64_t atlas_bytes = 0;
-    for (const Image& image : atlases)
-        atlas_bytes += bytesOf(image);
-    if (kept_bytes > atlas_bytes)
+    if (originalBytes(bake.scene, group) > bytesOf(atlases))
         return false;
     const TextureErrors errors = textureErrors(group, pixels, bake.sources, sampler);
     return errors.kept <= errors.baked;
@@ -324,7 +236,7 @@ private:
         const auto [found, fresh] = copies.try_emplace(material, 0);
         if (fresh) {
             Material copy = scene_.materials[material];
-            for (const auto slot : kTextures)
+            for (const auto slot : kTextureSlots)
                 adapt(copy.*slot);
             found->second = builder_.addMaterial(std::move(copy));
         }
@@ -463,7 +375,7 @@ Result<BakedScene> bakeTextures(const Scene& scene,
     BakedScene baked;
     for (std::size_t g = 0; g < bake.groups.size(); ++g) {
         const BakedGroup& group = bake.groups[g];
-        Result<AtlasImages> images = encodeAtlases(bake, group, (*pixels)[g]);
+        Result<AtlasImages> images = encodeAtlases(scene, group, (*pixels)[g], options);
         if (!images)
             return tl::unexpected(images.error());
         material_of_group.emplace_back();

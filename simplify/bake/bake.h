@@ -23,7 +23,8 @@ bool isBaked(const Scene& scene, const Primitive& primitive);
 // base colour, and where the materials have them normals (in the new tangent frame), occlusion,
 // roughness, metalness and emission. Vertex colours go into the base colour. Each texel's point is
 // traced back to the original surface (SuccessiveMap). Primitives without texture and vertex
-// colours stay as the LOD has them. Instances stay instances; animations and skins are left out.
+// colours stay as the LOD has them, and so do, textures and all, materials that keep_better lets
+// keep theirs; a note names those. Instances stay instances; animations and skins are left out.
 // submeshes, lod: of the scene. Parallel over triangles, the same for any number of threads.
 // Errors: Usage if an atlas is too small for its triangles; Cancelled; Failed (memory). Any thread.
 // O(texels * splits a point crosses). Source: Wild (Liu et al. 2024), section 7.

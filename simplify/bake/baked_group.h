@@ -33,7 +33,8 @@ struct BakedPart {
 };
 
 struct BakedGroup {
-    Material material; // what the new one is made from
+    std::size_t number = 0; // among the groups
+    Material material;      // what the new one is made from
     std::vector<BakedPart> parts;
     bool normals = false;
     bool surface = false; // occlusion, roughness, metalness
