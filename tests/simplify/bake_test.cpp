@@ -1,16 +1,19 @@
 #include "scene/scene_builder.h"
+#include "simplify/algorithm.h"
 #include "simplify/bake/atlas.h"
 #include "simplify/bake/bake.h"
 #include "simplify/bake/successive_map.h"
 #include "simplify/bake/texture_sampler.h"
 #include "simplify/measure/color_distance.h"
 #include "simplify/measure/surface_color.h"
+#include "simplify/measure/triangle.h"
 #include "simplify/wild/wild.h"
 #include "tests/simplify/meshes.h"
 
 #include <atomic>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <limits>
 #include <random>
 #include <stb_image_write.h>
 
@@ -224,6 +227,37 @@ TEST(SuccessiveMap, StaysOnItsSideOfAThinSlab) {
             const SuccessiveMap::Hit hit = map.trace(face, point, {0.0f, 0.0f, 1.0f});
             EXPECT_EQ(sequence.complex.primitiveOfFace(hit.face), p);
         }
+}
+
+TEST(SuccessiveMap, LeadsToTheNearestOfTheFacesThatLookTheSameWay) {
+    const Submesh submesh = submeshOf({sphere(24, 32)});
+    const Geometry& original = *submesh.primitives[0].geometry;
+    const CollapseSequence sequence = sequenceOf(submesh);
+    const std::uint32_t step = sequence.step_count * 9 / 10; // finer splits are left to the search
+    const SuccessiveMap map(sequence, submesh, step, {});
+    const auto cornersAt = [&](std::size_t face) {
+        Triangle t;
+        for (std::size_t k = 0; k < 3; ++k)
+            t[k] = glm::dvec3(original.positions[original.indices[3 * face + k]]);
+        return t;
+    };
+    ASSERT_FALSE(map.facesOf(0).empty());
+    for (const std::uint32_t face : map.facesOf(0)) {
+        const auto c = map.triangle(face);
+        const glm::vec3 normal = glm::cross(c[1] - c[0], c[2] - c[0]);
+        const glm::vec3 point = 0.5f * c[0] + 0.3f * c[1] + 0.2f * c[2];
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t f = 0; f < original.triangleCount(); ++f) {
+            const Triangle t = cornersAt(f);
+            if (glm::dot(glm::cross(t[1] - t[0], t[2] - t[0]), glm::dvec3(normal)) > 0.0)
+                least = std::min(least, std::sqrt(squaredDistance(glm::dvec3(point), t)));
+        }
+        const SuccessiveMap::Hit hit = map.trace(face, point, normal);
+        const Triangle t = cornersAt(hit.face);
+        const glm::dvec3 w(hit.weights);
+        const glm::dvec3 on = t[0] * w.x + t[1] * w.y + t[2] * w.z;
+        EXPECT_NEAR(glm::length(on - glm::dvec3(point)), least, 1e-5);
+    }
 }
 
 TEST(Bake, ShowsTheColoursOfTheSurfaceWhereTextureCoordinatesWouldBleed) {
