@@ -235,7 +235,8 @@ void weighRemovals(RemovalSequence& removal,
                    std::span<const double> areas,     // [instances] the longest-lived first
                    std::span<const double> distances, // [instances] to the nearest that outlives
                    const Cover& cover,
-                   double radius) {
+                   double radius,  // mean size
+                   double reach) { // how far growing may move a surface
     const double apart = meanOfFirstHalf(distances);
     const double one_of = 1.0 / std::sqrt(static_cast<double>(areas.size()));
     const double hidden =
@@ -252,8 +253,8 @@ void weighRemovals(RemovalSequence& removal,
         to_sisters = std::max(to_sisters, distances[i]);
         const double distance = hidden * (unlike ? distances[i] : to_sisters);
         costs.push_back(areas[i] * distance * distance);
-        const double limit =
-            std::min(limits[i], to_sisters <= cover.distance ? kMaxGrowth : bounded);
+        const double limit = std::min(
+            {limits[i], 1.0 + reach / radius, to_sisters <= cover.distance ? kMaxGrowth : bounded});
         const double left = removal.area_left[i];
         growth = std::max(growth, left > 0.0 ? std::min(limit, std::sqrt(all / left)) : 1.0);
         removal.error.push_back(static_cast<float>(std::min(to_sisters, cover.distance)));
@@ -291,7 +292,12 @@ RemovalSequence planRemoval(const Scene& scene,
         places.push_back(member.at);
     }
     const std::vector<double> distances = distancesToEarlier(places, spots);
-    weighRemovals(removal, areas, distances, cover, meanRadius(facts, members));
+    weighRemovals(removal,
+                  areas,
+                  distances,
+                  cover,
+                  meanRadius(facts, members),
+                  kGrowthReach * scene_bounds.diagonal());
     removal.order = std::move(instances);
     return removal;
 }

@@ -26,8 +26,13 @@ struct RemovalSequence {
 // Survivors are enlarged by at most this factor; beyond it (fewer than one in 25 left) the area
 // falls.
 constexpr double kMaxGrowth = 5.0;
+// Nor does growing move their surface by more than this share of the model's diagonal: a twig five
+// times as long would stick out of the crown. Of 1 to 4 % it has the least distances and the
+// fullest crowns.
+constexpr double kGrowthReach = 0.03;
 
 // Growth of the survivors' size when `kept` of all instances are left: sqrt(area of all / kept).
+// No more than kMaxGrowth, nor than moves a surface of mean size by kGrowthReach of the diagonal.
 // Where a cover is nearer than the sisters it is bounded by 1 + cover / radius: a window must not
 // outgrow its wall to make up for others. Of unlike sizes each removal may make the largest that is
 // left swell by no more than the distance from what goes to the nearest of what is left; growth

@@ -129,6 +129,21 @@ TEST(Removal, SurvivorsKeepTheAreaUntilTheyAreFourTimesAsLarge) {
     EXPECT_EQ(growthAt(removal, 400), 1.0);
 }
 
+// Sheets of a third of the model's side: four times as large they would cover it.
+TEST(Removal, GrowingMovesNoSurfaceFar) {
+    std::vector<glm::dmat4> transforms;
+    for (int i = 0; i < 100; ++i)
+        transforms.push_back(glm::translate(glm::dmat4(1.0), {i % 10, i / 10, 0.0}) *
+                             glm::scale(glm::dmat4(1.0), glm::dvec3(3.0)));
+    const ScenePtr scene = meshes::sceneOf({submeshOf({meshes::grid(2)})}, {transforms});
+    const double radius = 0.5 * 3.0 * std::sqrt(2.0);
+    const double limit = 1.0 + kGrowthReach * worldBounds(*scene).diagonal() / radius;
+    ASSERT_LT(limit, 2.0);
+    const RemovalSequence removal = planned(scene);
+    EXPECT_NEAR(growthAt(removal, 5), limit, 1e-4);
+    EXPECT_NEAR(growthAt(removal, 95), std::sqrt(100.0 / 95.0), 1e-4);
+}
+
 TEST(Removal, ReadOutHasTheAreaOfTheWhole) {
     const ScenePtr scene = scattered(256);
     const LodSourcePtr source = prepared(scene);
