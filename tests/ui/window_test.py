@@ -192,6 +192,33 @@ def test_tab_hides_the_panels_and_n_shows_normals(folder):
         window.wait("larger views", lambda: window.rect(name)[2] > rect[2])
 
 
+def assert_inside(window, width, height):
+    """No widget ends outside the window; rows of the inspector that only scrolling shows: their names."""
+    below = []
+    fold = window.rect("Inspector/Export LOD\u2026")[1]
+    for (kind, name), entry in list(window.objects.items()):
+        if kind != "widget" or not re.match(r"(View \d+|Inspector|Master|Menu)/", name):
+            continue
+        x, y, w, h = entry["rect"]
+        assert x >= 0 and y >= 0, f"{name} begins at {x}, {y}"
+        assert x + w <= width + 1, f"{name} ends at {x + w}"
+        if name.startswith("Inspector/") and "Export" not in name and y + h > fold:
+            below.append(name)
+        else:
+            assert y + h <= height + 1, f"{name} ends at {y + h}"
+    return below
+
+
+def assert_scrolling_shows(window, below):
+    """The wheel brings up these rows of the inspector."""
+    fold = window.rect("Inspector/Export LOD\u2026")[1]
+    x, y = window.center("Inspector/Target")
+    window.move(x, y - 40)
+    xdotool("click", "--repeat", "60", "--delay", "10", "5")
+    window.wait("the last rows", lambda: all(
+        window.rect(name)[1] + window.rect(name)[3] <= fold for name in below))
+
+
 def test_resizing_keeps_every_part_inside(folder):
     with open_chair(folder) as window:
         for width, height in ((1500, 900), (1280, 720)):
@@ -200,12 +227,8 @@ def test_resizing_keeps_every_part_inside(folder):
             window.wait_frames(4)
             window.wait("the new layout", lambda w=width: abs(
                 sum(window.rect("Inspector/Export LOD\u2026")[at] for at in (0, 2)) - w) < 40)
-            for (kind, name), entry in list(window.objects.items()):
-                if kind != "widget" or not re.match(r"(View \d+|Inspector|Master|Menu)/", name):
-                    continue
-                x, y, w, h = entry["rect"]
-                assert x >= 0 and y >= 0, f"{name} begins at {x}, {y}"
-                assert x + w <= width + 1 and y + h <= height + 1, f"{name} ends at {x + w}, {y + h}"
+            below = assert_inside(window, width, height)
+        assert_scrolling_shows(window, below)
 
 
 def test_escape_asks_before_it_quits(folder):
@@ -425,22 +448,7 @@ def test_twice_as_dense_nothing_is_cut_off(folder):
         window.wait_frames(4)
         window.wait("the layout", lambda: abs(
             sum(window.rect("Inspector/Export LOD\u2026")[at] for at in (0, 2)) - 2560) < 80)
-        below = []  # rows of the inspector that scrolling brings up
-        export_y = window.rect("Inspector/Export LOD\u2026")[1]
-        for (kind, name), entry in list(window.objects.items()):
-            if kind != "widget" or not re.match(r"(View \d+|Inspector|Master|Menu)/", name):
-                continue
-            x, y, w, h = entry["rect"]
-            assert x >= 0 and y >= 0 and x + w <= 2561, f"{name}: {entry['rect']}"
-            if name.startswith("Inspector/") and y + h > export_y and "Export" not in name:
-                below.append(name)
-            else:
-                assert y + h <= 1441, f"{name}: {entry['rect']}"
-        x, y = window.center("Inspector/Target")
-        window.move(x, y - 40)
-        xdotool("click", "--repeat", "60", "--delay", "10", "5")
-        window.wait("the last rows", lambda: all(
-            window.rect(name)[1] + window.rect(name)[3] <= export_y for name in below))
+        assert_scrolling_shows(window, assert_inside(window, 2560, 1440))
 
 
 def holds(name, test, attempts_left):
