@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <ranges>
 
 namespace lodestone {
 
@@ -117,9 +116,16 @@ struct SuccessiveMap::Replay {
                 faces += counts.faces[step];
             return faces;
         };
-        const auto steps = std::views::iota(0u, last);
-        return *std::ranges::partition_point(
-            steps, [&](std::uint32_t step) { return facesAt(step) > kFiner * facesAt(last); });
+        std::uint32_t low = 0;
+        std::uint32_t high = last;
+        while (low < high) {
+            const std::uint32_t middle = low + (high - low) / 2;
+            if (facesAt(middle) > kFiner * facesAt(last))
+                low = middle + 1;
+            else
+                high = middle;
+        }
+        return low;
     }
 
     void run(std::uint32_t last, const JobContext& job) {
