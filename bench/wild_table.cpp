@@ -350,7 +350,7 @@ int addTimes(WildTable& table, Inputs& inputs) {
 
 // With colours at its vertices, so that there is something to transfer.
 Result<ScenePtr> coloredSphere(std::uint32_t side) {
-    const Result<ScenePtr> plain = displacedSphere(side);
+    Result<ScenePtr> plain = displacedSphere(side);
     if (!plain)
         return plain;
     auto colored = std::make_shared<Scene>(**plain);

@@ -110,7 +110,7 @@ struct SuccessiveMap::Replay {
         // Colour errors of textured models at 1 %: no more than 2 % above those of all splits; with
         // 4, up to 7 %.
         constexpr std::uint64_t kFiner = 16; // times as many faces
-        const auto facesAt = [&](std::uint32_t step) {
+        const auto faces_at = [&](std::uint32_t step) {
             std::uint64_t faces = 0;
             for (const auto& counts : sequence.counts)
                 faces += counts.faces[step];
@@ -120,7 +120,7 @@ struct SuccessiveMap::Replay {
         std::uint32_t high = last;
         while (low < high) {
             const std::uint32_t middle = low + (high - low) / 2;
-            if (facesAt(middle) > kFiner * facesAt(last))
+            if (faces_at(middle) > kFiner * faces_at(last))
                 low = middle + 1;
             else
                 high = middle;
