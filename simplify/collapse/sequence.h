@@ -50,9 +50,9 @@ struct CollapseSequence {
 struct FloorOptions {
     bool enabled = true;
     std::uint32_t min_triangles = 4; // or all it has, if fewer
-    // Share of every axis but a thin one, and 5/8 of it of the area, while it is a crowd. High floors
-    // make instances go, and what is left grow, before shapes are used up, which costs more in
-    // distance and in the picture than coarse shapes do; low ones make lamps spikes.
+    // Share of every axis but a thin one, and 5/8 of it of the area, while it is a crowd. High
+    // floors make instances go, and what is left grow, before shapes are used up, which costs more
+    // in distance and in the picture than coarse shapes do; low ones make lamps spikes.
     double min_shape = 0.5;
     // Instances that make a crowd, of which some can go while others grow. Of fewer each is missed
     // more than its shape: they are collapsed on.
