@@ -28,8 +28,7 @@ measureAt(const CollapseSequence& sequence, const Submesh& submesh, std::uint32_
     return measure;
 }
 
-// A share of its axes leaves a flat shape at least that much of its area, rounder ones about as
-// much.
+// Of a share of its axes, the share of its area that a shape keeps with it: half with four fifths.
 constexpr double kAreaOfExtent = 0.625;
 
 // The last step with at least that many triangles.

@@ -27,8 +27,8 @@ struct RemovalSequence {
 // falls.
 constexpr double kMaxGrowth = 5.0;
 // Nor does growing move their surface by more than this share of the model's diagonal: a twig five
-// times as long would stick out of the crown. Of 1 to 4 % it has the least distances and the
-// fullest crowns.
+// times as long would stick out of the crown. Less brings distances down a little more, and makes
+// crowns thin.
 constexpr double kGrowthReach = 0.03;
 
 // Growth of the survivors' size when `kept` of all instances are left: sqrt(area of all / kept).

@@ -2,10 +2,10 @@
 #include "app/session.h"
 #include "app/texture_jobs.h"
 #include "scene/scene_builder.h"
+#include "tests/png_image.h"
 #include "tests/simplify/meshes.h"
 
 #include <gtest/gtest.h>
-#include <stb_image_write.h>
 #include <unistd.h>
 
 namespace lodestone {
@@ -21,14 +21,7 @@ Image checks(int width) {
         const bool dark = (at / 4 + at / width / 4) % 2 == 0;
         rgb.insert(rgb.end(), {static_cast<std::uint8_t>(dark ? 200 : 40), 90, 60});
     }
-    const auto bytes = std::make_shared<std::vector<std::byte>>();
-    const auto append = [](void* to, void* data, int size) {
-        const auto* begin = static_cast<const std::byte*>(data);
-        auto& all = *static_cast<std::vector<std::byte>*>(to);
-        all.insert(all.end(), begin, begin + size);
-    };
-    stbi_write_png_to_func(append, bytes.get(), width, kHeight, 3, rgb.data(), 0);
-    return {"checks", "image/png", {}, bytes};
+    return pngImage("checks", width, kHeight, rgb);
 }
 
 ScenePtr checkedSphere(int image_width) {

@@ -1,10 +1,10 @@
 #include "app/cli_run.h"
 #include "scene/scene_builder.h"
+#include "tests/png_image.h"
 #include "tests/simplify/meshes.h"
 
 #include <gtest/gtest.h>
 #include <random>
-#include <stb_image_write.h>
 #include <unistd.h>
 
 namespace lodestone {
@@ -18,14 +18,7 @@ Image noise() {
     std::vector<std::uint8_t> rgb(std::size_t{3} * kSide * kSide);
     for (std::uint8_t& value : rgb)
         value = static_cast<std::uint8_t>(random() & 0xffu);
-    const auto bytes = std::make_shared<std::vector<std::byte>>();
-    const auto append = [](void* to, void* data, int size) {
-        const auto* begin = static_cast<const std::byte*>(data);
-        auto& all = *static_cast<std::vector<std::byte>*>(to);
-        all.insert(all.end(), begin, begin + size);
-    };
-    stbi_write_png_to_func(append, bytes.get(), kSide, kSide, 3, rgb.data(), 0);
-    return {"noise", "image/png", {}, bytes};
+    return pngImage("noise", kSide, kSide, rgb);
 }
 
 ScenePtr noisySphere() {

@@ -8,6 +8,7 @@
 #include "simplify/measure/surface_color.h"
 #include "simplify/measure/triangle.h"
 #include "simplify/wild/wild.h"
+#include "tests/png_image.h"
 #include "tests/simplify/meshes.h"
 
 #include <atomic>
@@ -15,7 +16,6 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <random>
-#include <stb_image_write.h>
 
 using namespace lodestone;
 using namespace lodestone::meshes;
@@ -36,14 +36,7 @@ Image stripes() {
                         static_cast<std::uint8_t>(green ? 200 : 0),
                         static_cast<std::uint8_t>(green ? 0 : 200)});
         }
-    const auto bytes = std::make_shared<std::vector<std::byte>>();
-    const auto append = [](void* to, void* data, int size) {
-        const auto* begin = static_cast<const std::byte*>(data);
-        auto& all = *static_cast<std::vector<std::byte>*>(to);
-        all.insert(all.end(), begin, begin + size);
-    };
-    stbi_write_png_to_func(append, bytes.get(), kSize, kSize, 3, rgb.data(), 0);
-    return {"stripes", "image/png", {}, bytes};
+    return pngImage("stripes", kSize, kSize, rgb);
 }
 
 // A bumpy sphere whose triangles have texture islands of their own, as far as coordinates go.
@@ -376,26 +369,13 @@ TEST(Bake, KeepsTheLookOfNormalMapsInTheNewFrame) {
         normals.insert(normals.end(), {0.0f, 0.0f, 1.0f});
         uv.insert(uv.end(), {p.x, 1.0f - p.y}); // v runs down
     }
-    const auto bytes = std::make_shared<std::vector<std::byte>>();
     const std::array<std::uint8_t, 3> texel{
         static_cast<std::uint8_t>(std::lround(127.5f + 127.5f * lean)),
         128,
         static_cast<std::uint8_t>(std::lround(127.5f + 127.5f * lean))};
-    stbi_write_png_to_func(
-        [](void* to, void* data, int size) {
-            const auto* begin = static_cast<const std::byte*>(data);
-            auto& all = *static_cast<std::vector<std::byte>*>(to);
-            all.insert(all.end(), begin, begin + size);
-        },
-        bytes.get(),
-        1,
-        1,
-        3,
-        texel.data(),
-        0);
     SceneBuilder builder("lean");
     Material material;
-    material.normal_texture.image = builder.addImage({"lean", "image/png", {}, bytes});
+    material.normal_texture.image = builder.addImage(pngImage("lean", 1, 1, texel));
     Primitive primitive;
     primitive.material = builder.addMaterial(material);
     primitive.geometry = withAttribute(*withAttribute(*flat, "NORMAL", normals), "TEXCOORD_0", uv);
