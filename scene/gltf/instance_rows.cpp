@@ -89,16 +89,6 @@ double largestOf(const glm::dvec3& scale) {
     return std::max({size.x, size.y, size.z});
 }
 
-// The lowest 21 bits, two zeros before each.
-std::uint64_t spread(std::uint64_t bits) {
-    bits &= 0x1FFFFF;
-    bits = (bits | bits << 32) & 0x001F00000000FFFFULL;
-    bits = (bits | bits << 16) & 0x001F0000FF0000FFULL;
-    bits = (bits | bits << 8) & 0x100F00F00F00F00FULL;
-    bits = (bits | bits << 4) & 0x10C30C30C30C30C3ULL;
-    return (bits | bits << 2) & 0x1249249249249249ULL;
-}
-
 glm::dvec4 valueAt(const Attribute& attribute, std::size_t row) {
     glm::dvec4 value(0.0);
     for (std::size_t c = 0; c < attribute.components; ++c)
@@ -204,26 +194,6 @@ std::vector<Trs> rowTransforms(std::span<const RowColumn> columns, std::size_t r
             }
         }
     return rows;
-}
-
-std::vector<std::uint32_t> mortonOrder(std::span<const glm::dvec3> translations) {
-    Bounds bounds;
-    for (const glm::dvec3& at : translations)
-        bounds.add(at);
-    const glm::dvec3 size = bounds.size();
-    const double extent = std::max({size.x, size.y, size.z});
-    const double cells = extent > 0.0 && std::isfinite(extent) ? 2097151.0 / extent : 0.0;
-    std::vector<std::uint64_t> keys;
-    for (const glm::dvec3& at : translations) {
-        const glm::dvec3 cell = (at - bounds.min) * cells;
-        keys.push_back(spread(static_cast<std::uint64_t>(cell.x)) |
-                       spread(static_cast<std::uint64_t>(cell.y)) << 1 |
-                       spread(static_cast<std::uint64_t>(cell.z)) << 2);
-    }
-    std::vector<std::uint32_t> order(translations.size());
-    std::iota(order.begin(), order.end(), 0U);
-    std::ranges::stable_sort(order, {}, [&](std::uint32_t row) { return keys[row]; });
-    return order;
 }
 
 } // namespace lodestone

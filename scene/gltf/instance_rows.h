@@ -38,8 +38,4 @@ struct RowColumn {
 
 std::vector<Trs> rowTransforms(std::span<const RowColumn> columns, std::size_t row_count);
 
-// The order of the rows along a Morton curve through their translations: neighbours in the list
-// are neighbours in space. Ties keep their order.
-std::vector<std::uint32_t> mortonOrder(std::span<const glm::dvec3> translations);
-
 } // namespace lodestone

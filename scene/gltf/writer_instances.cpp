@@ -3,6 +3,7 @@
 #include "scene/gltf/instance_rows.h"
 #include "scene/gltf/writer_nodes.h"
 #include "scene/gltf/writer_references.h"
+#include "scene/morton.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "simplify/collapse/removal.h"
 
-#include "simplify/collapse/radix_sort.h"
+#include "scene/morton.h"
 #include "simplify/collapse/removal_grid.h"
 #include "simplify/collapse/removal_order.h"
 
@@ -67,14 +67,6 @@ double instanceArea(const SubmeshFacts& facts, const glm::dmat3& m) {
     return facts.area * std::sqrt(std::max(0.0, squared));
 }
 
-std::uint32_t spread(std::uint32_t v) { // 10 bits to every third bit
-    v &= 0x3FF;
-    v = (v | v << 16) & 0x30000FF;
-    v = (v | v << 8) & 0x300F00F;
-    v = (v | v << 4) & 0x30C30C3;
-    return (v | v << 2) & 0x9249249;
-}
-
 // How far a transformed box reaches from the pivot before it leaves the model's bounds, x its size.
 double roomOf(const glm::dmat3& m,
               const Bounds& about_pivot,
@@ -108,6 +100,8 @@ Crowd crowdOf(const Scene& scene,
               const SubmeshFacts& facts,
               const Bounds& scene_bounds) {
     std::vector<Member> members(range.size());
+    std::vector<glm::dvec3> places;
+    places.reserve(members.size());
     Bounds spots;
     Bounds about_pivot;
     about_pivot.min = facts.bounds.min - facts.pivot;
@@ -121,20 +115,13 @@ Crowd crowdOf(const Scene& scene,
         member.area = instanceArea(facts, linear);
         member.room =
             roomOf(linear, about_pivot, member.at - scene_bounds.min, scene_bounds.max - member.at);
+        places.push_back(member.at);
         spots.add(member.at);
     }
-    const double size = std::max({spots.size().x, spots.size().y, spots.size().z, 1e-300});
-    std::vector<std::uint64_t> codes(members.size()); // ties: the file's order
-    for (std::uint32_t i = 0; i < members.size(); ++i) {
-        const glm::uvec3 cell((members[i].at - spots.min) * (1023.999 / size));
-        const std::uint32_t code = spread(cell.x) | spread(cell.y) << 1 | spread(cell.z) << 2;
-        codes[i] = std::uint64_t{code} << 32 | i;
-    }
-    sortByUpperHalf(codes);
     Crowd crowd{{}, spots};
     crowd.members.reserve(members.size());
-    for (const std::uint64_t code : codes)
-        crowd.members.push_back(members[code & 0xFFFFFFFFu]);
+    for (const std::uint32_t index : mortonOrder(places))
+        crowd.members.push_back(members[index]);
     return crowd;
 }
 

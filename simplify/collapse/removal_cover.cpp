@@ -1,11 +1,13 @@
 #include "simplify/collapse/removal_cover.h"
 
-#include "simplify/collapse/triangle_grid.h"
-#include "simplify/measure/triangle.h"
+#include "scene/transformed_box.h"
+#include "simplify/collapse/ball_tree.h"
+#include "simplify/collapse/box_grid.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <tbb/parallel_for.h>
 
 namespace lodestone {
@@ -17,6 +19,7 @@ constexpr std::size_t kMaxTriangles = 100'000; // of all covers
 constexpr std::size_t kSamples = 4;            // points of a submesh
 constexpr double kCovered = 0.5;               // x the radius, at most
 constexpr std::uint32_t kInstances = 6;        // of a submesh that are looked at
+constexpr double kOff = 0.1;                   // x the least radius, that a cover may be
 
 struct Sampled {
     std::array<glm::dvec3, kSamples> points{};
@@ -118,17 +121,15 @@ std::uint32_t stepWithin(const CollapseSequence& sequence, double limit) {
     return static_cast<std::uint32_t>(beyond - begin);
 }
 
-using Corners = std::array<glm::vec3, 3>;
-
-std::vector<Corners>
+std::vector<BallTree::Corners>
 trianglesAt(const CollapseSequence& sequence, const Submesh& submesh, std::uint32_t step) {
     std::vector<std::uint32_t> stands_for(sequence.complex.wedge_source.size());
     resolveWedges(sequence, step, stands_for);
-    std::vector<Corners> triangles;
+    std::vector<BallTree::Corners> triangles;
     for (std::size_t f = 0; f < sequence.complex.faces.size(); ++f) {
         if (sequence.face_death[f] <= step)
             continue;
-        Corners& corners = triangles.emplace_back();
+        BallTree::Corners& corners = triangles.emplace_back();
         for (std::size_t k = 0; k < 3; ++k)
             corners[k] =
                 wedgePosition(sequence, submesh, stands_for[sequence.complex.faces[f][k]], step);
@@ -143,10 +144,21 @@ double stretchOf(const Scene& scene, InstanceRange range) {
     return stretch;
 }
 
+// No linear map stretches anything more than the root of the largest row sum of its Gram matrix;
+// exact where the axes stay at right angles.
+float mostStretchOf(const glm::mat3& linear) {
+    const glm::mat3 gram = glm::transpose(linear) * linear;
+    float most = 0.0f;
+    for (int c = 0; c < 3; ++c)
+        most = std::max(most, std::abs(gram[c].x) + std::abs(gram[c].y) + std::abs(gram[c].z));
+    return std::sqrt(most);
+}
+
 class CoverFinder {
 public:
     CoverFinder(const Scene& scene, std::span<const InstanceRange> ranges)
-        : scene_(scene), ranges_(ranges), sampled_(ranges.size()), larger_(ranges.size(), 0) {
+        : scene_(scene), ranges_(ranges), sampled_(ranges.size()), larger_(ranges.size(), 0),
+          trees_(ranges.size()) {
         tbb::parallel_for(std::size_t{0}, ranges.size(), [&](std::size_t s) {
             sampled_[s] = sample(scene, s, ranges[s]);
         });
@@ -158,51 +170,63 @@ public:
     Cover coverOf(std::size_t submesh) const;
 
 private:
-    struct Measured {
+    struct Measured { // at a point
         double distance2 = 0.0;
         double cost2 = 0.0;
     };
 
-    void addInstances(std::uint32_t submesh,
-                      std::span<const Corners> local,
-                      std::vector<GridTriangle>& all) const;
-    Measured measure(std::size_t submesh, const glm::dmat4& transform) const;
+    // An instance that may hide others.
+    struct Larger {
+        std::uint32_t submesh = 0;
+        BallTree::Placement placement;
+    };
+
+    void addInstances(std::uint32_t submesh, double tolerance, std::vector<Box>& boxes);
+    Measured measure(std::size_t submesh, const glm::dvec3& world, double radius) const;
 
     const Scene& scene_;
     std::span<const InstanceRange> ranges_;
-    std::vector<Sampled> sampled_; // [submeshes]
-    std::vector<std::uint32_t>
-        larger_;             // [submeshes] so many triangles of the grid are of larger ones
-    glm::dvec3 origin_{0.0}; // of the grid's coordinates
-    TriangleGrid grid_;
+    std::vector<Sampled> sampled_;               // [submeshes]
+    std::vector<std::uint32_t> larger_;          // [submeshes] so many of instances_ are larger
+    std::vector<std::optional<BallTree>> trees_; // [submeshes]
+    glm::dvec3 origin_{0.0};                     // of the grid's coordinates
+    std::vector<Larger> instances_;
+    BoxGrid grid_; // of instances_
 };
 
-void CoverFinder::addInstances(std::uint32_t submesh,
-                               std::span<const Corners> local,
-                               std::vector<GridTriangle>& all) const {
+void CoverFinder::addInstances(std::uint32_t submesh, double tolerance, std::vector<Box>& boxes) {
+    Bounds local = localBounds(scene_.submeshes[submesh]);
+    local.min -= tolerance; // what is left may lie a little outside
+    local.max += tolerance;
     for (std::uint32_t i = ranges_[submesh].begin; i < ranges_[submesh].end; ++i) {
         const glm::dmat4& transform = scene_.instances[i].transform;
-        const glm::mat3 linear{glm::dmat3(transform)};
-        const glm::vec3 offset(glm::dvec3(transform[3]) - origin_);
-        for (const Corners& corners : local) {
-            GridTriangle& triangle = all.emplace_back();
-            triangle.owner = submesh;
-            for (std::size_t k = 0; k < 3; ++k)
-                triangle.corners[k] = linear * corners[k] + offset;
-        }
+        Larger& larger = instances_.emplace_back();
+        larger.submesh = submesh;
+        larger.placement.linear = glm::mat3(glm::dmat3(transform));
+        larger.placement.offset = glm::vec3(glm::dvec3(transform[3]) - origin_);
+        larger.placement.stretch = mostStretchOf(larger.placement.linear);
+        const Bounds box = transformedBox(transform, local);
+        boxes.push_back({glm::vec3(box.min - origin_), glm::vec3(box.max - origin_)});
     }
 }
 
 bool CoverFinder::gather(std::span<const CollapseSequence> sequences, double tolerance) {
     double least = std::numeric_limits<double>::infinity(); // area of what may need a cover
-    for (std::size_t s = 0; s < ranges_.size(); ++s)
-        if (ranges_[s].size() > 1 && sampled_[s].mean_area > 0.0)
-            least = std::min(least, sampled_[s].mean_area);
+    double least_radius = least;
+    for (std::size_t s = 0; s < ranges_.size(); ++s) {
+        const Sampled& own = sampled_[s];
+        if (ranges_[s].size() < 2 || !(own.mean_area > 0.0))
+            continue;
+        least = std::min(least, own.mean_area);
+        least_radius = std::min(least_radius, own.radius * std::sqrt(own.mean_area / own.area));
+    }
+    tolerance = std::max(tolerance, kOff * least_radius);
     std::vector<std::uint32_t> order(ranges_.size()); // the largest first
     std::iota(order.begin(), order.end(), 0u);
     std::ranges::stable_sort(
         order, std::greater{}, [&](std::uint32_t s) { return sampled_[s].mean_area; });
-    std::vector<GridTriangle> all;
+    std::vector<Box> boxes;
+    std::size_t triangles = 0;
     std::size_t covered = 0; // of order: those that already know what is larger
     for (const std::uint32_t s : order) {
         const double area = sampled_[s].mean_area;
@@ -210,52 +234,50 @@ bool CoverFinder::gather(std::span<const CollapseSequence> sequences, double tol
             break;
         for (; covered < order.size() && area < kLarger * sampled_[order[covered]].mean_area;
              ++covered)
-            larger_[order[covered]] = static_cast<std::uint32_t>(all.size());
+            larger_[order[covered]] = static_cast<std::uint32_t>(boxes.size());
         const double stretch = stretchOf(scene_, ranges_[s]);
-        const std::vector<Corners> local =
-            trianglesAt(sequences[s],
-                        scene_.submeshes[s],
-                        stretch > 0.0 ? stepWithin(sequences[s], tolerance / stretch) : 0);
-        if (all.size() + local.size() * ranges_[s].size() > kMaxTriangles)
+        const double local_tolerance = stretch > 0.0 ? tolerance / stretch : 0.0;
+        const std::uint32_t step = stepWithin(sequences[s], local_tolerance);
+        const std::vector<BallTree::Corners> local =
+            trianglesAt(sequences[s], scene_.submeshes[s], step);
+        triangles += local.size() * ranges_[s].size();
+        if (triangles > kMaxTriangles)
             break;
-        if (all.empty())
+        if (boxes.empty())
             origin_ = glm::dvec3(scene_.instances[ranges_[s].begin].transform[3]);
-        addInstances(s, local, all);
+        trees_[s].emplace(local);
+        addInstances(s, local_tolerance, boxes);
     }
     for (; covered < order.size(); ++covered)
-        larger_[order[covered]] = static_cast<std::uint32_t>(all.size());
-    grid_ = TriangleGrid(std::move(all));
+        larger_[order[covered]] = static_cast<std::uint32_t>(boxes.size());
+    grid_ = BoxGrid(std::move(boxes));
     return !grid_.empty();
 }
 
-CoverFinder::Measured CoverFinder::measure(std::size_t submesh, const glm::dmat4& transform) const {
+CoverFinder::Measured
+CoverFinder::measure(std::size_t submesh, const glm::dvec3& world, double radius) const {
     const Sampled& own = sampled_[submesh];
-    const double radius = own.radius * scaleOf(transform);
-    Measured sum;
-    for (const glm::dvec3& point : own.points) {
-        const glm::dvec3 at = glm::dvec3(transform * glm::dvec4(point, 1.0)) - origin_;
-        Measured best{radius * radius, radius * radius};
-        const auto visit = [&](const GridTriangle& triangle) {
-            const glm::dvec3 contrast =
-                (sampled_[triangle.owner].color - own.color) * (0.5 * radius);
-            const auto& [a, b, c] = triangle.corners;
-            const double distance2 =
-                squaredDistance(at, {glm::dvec3(a), glm::dvec3(b), glm::dvec3(c)});
-            const double cost2 = distance2 + glm::dot(contrast, contrast) / 3.0;
-            if (cost2 < best.cost2)
-                best = {distance2, cost2};
-            return static_cast<float>(std::sqrt(best.cost2));
-        };
-        grid_.visitNear(glm::vec3(at), static_cast<float>(radius), larger_[submesh], visit);
-        sum.distance2 += best.distance2;
-        sum.cost2 += best.cost2;
-    }
-    return {sum.distance2 / kSamples, sum.cost2 / kSamples};
+    const glm::vec3 at(world - origin_);
+    Measured best{radius * radius, radius * radius};
+    const auto visit = [&](std::uint32_t index) {
+        const auto& [larger, placement] = instances_[index];
+        const glm::dvec3 contrast = (sampled_[larger].color - own.color) * (0.5 * radius);
+        const double cost_of_color = glm::dot(contrast, contrast) / 3.0;
+        const auto limit = static_cast<float>(best.cost2 - cost_of_color);
+        const float distance2 =
+            limit > 0.0f ? trees_[larger]->nearest(at, placement, limit) : limit;
+        if (distance2 < limit)
+            best = {static_cast<double>(distance2), static_cast<double>(distance2) + cost_of_color};
+        return static_cast<float>(std::sqrt(best.cost2));
+    };
+    grid_.visitNear(at, static_cast<float>(radius), larger_[submesh], visit);
+    return best;
 }
 
 Cover CoverFinder::coverOf(std::size_t submesh) const {
     const InstanceRange range = ranges_[submesh];
-    if (range.size() < 2 || !(sampled_[submesh].mean_area > 0.0) || larger_[submesh] == 0)
+    const Sampled& own = sampled_[submesh];
+    if (range.size() < 2 || !(own.mean_area > 0.0) || larger_[submesh] == 0)
         return {};
     const std::uint32_t count = std::min(range.size(), kInstances);
     const auto transform_of = [&](std::uint32_t k) -> const glm::dmat4& {
@@ -264,18 +286,24 @@ Cover CoverFinder::coverOf(std::size_t submesh) const {
     };
     double reach2 = 0.0;
     for (std::uint32_t k = 0; k < count; ++k) {
-        const double radius = kCovered * sampled_[submesh].radius * scaleOf(transform_of(k));
-        reach2 += radius * radius;
+        const double reach = kCovered * own.radius * scaleOf(transform_of(k));
+        reach2 += kSamples * reach * reach;
     }
     Measured sum;
     for (std::uint32_t k = 0; k < count; ++k) {
-        const Measured measured = measure(submesh, transform_of(k));
-        sum.distance2 += measured.distance2;
-        sum.cost2 += measured.cost2;
-        if (!(sum.cost2 <= reach2)) // as most are, and soon
-            return {};
+        const glm::dmat4& transform = transform_of(k);
+        const double radius = own.radius * scaleOf(transform);
+        for (const glm::dvec3& point : own.points) {
+            const Measured measured =
+                measure(submesh, glm::dvec3(transform * glm::dvec4(point, 1.0)), radius);
+            sum.distance2 += measured.distance2;
+            sum.cost2 += measured.cost2;
+            if (!(sum.cost2 <= reach2)) // as most are, and soon
+                return {};
+        }
     }
-    return {std::sqrt(sum.distance2 / count), std::sqrt(sum.cost2 / count)};
+    const double points = kSamples * static_cast<double>(count);
+    return {std::sqrt(sum.distance2 / points), std::sqrt(sum.cost2 / points)};
 }
 
 } // namespace

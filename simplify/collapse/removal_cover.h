@@ -14,8 +14,9 @@ struct Cover {
 
 // Covers of the submeshes with several instances, [submeshes]. Rough: sampled at a few instances;
 // a larger instance is one of a submesh whose mean instance has at least four times the area, as
-// far as 100,000 triangles go, the largest first, off by up to `tolerance` (world).
-// sequences [submeshes]. Deterministic. Any thread. O(wedges + instances).
+// far as 100,000 triangles go, the largest first, off by up to `tolerance` (world) or a tenth of
+// the smallest submesh's radius. sequences [submeshes]. Deterministic. Any thread.
+// O(wedges + instances).
 std::vector<Cover> findCovers(const Scene& scene,
                               std::span<const InstanceRange> ranges,
                               std::span<const CollapseSequence> sequences,

@@ -1,0 +1,55 @@
+#pragma once
+// The nearest of a submesh's triangles, for any instance of it: one tree serves them all.
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+namespace lodestone {
+
+class BallTree {
+public:
+    using Corners = std::array<glm::vec3, 3>;
+
+    // Where an instance puts the triangles.
+    struct Placement {
+        glm::mat3 linear{1.0f};
+        glm::vec3 offset{0.0f};
+        float stretch = 1.0f; // the most that `linear` stretches anything
+    };
+
+    // O(n log n).
+    explicit BallTree(std::span<const Corners> triangles);
+
+    // Squared distance of a point from the nearest triangle, if that is less than `limit`, else
+    // `limit`.
+    float nearest(const glm::vec3& point, const Placement& placement, float limit) const;
+
+private:
+    // Around triangles; an inner node's first child follows it.
+    struct Node {
+        glm::vec3 center{0.0f};
+        float radius = 0.0f;
+        std::uint32_t begin = 0; // of a leaf's triangles_
+        std::uint32_t end = 0;
+        std::uint32_t second = 0; // child; 0: a leaf
+    };
+
+    struct Box {
+        glm::vec3 low{0.0f};
+        glm::vec3 high{0.0f};
+    };
+
+    struct Middle {
+        glm::vec3 at{0.0f};
+        std::uint32_t triangle = 0;
+    };
+
+    Box build(std::span<const Corners> triangles, std::span<Middle> middles);
+
+    std::vector<Corners> triangles_; // leaf by leaf
+    std::vector<Node> nodes_;
+};
+
+} // namespace lodestone
