@@ -18,11 +18,16 @@ Bulk findBulk(std::span<const glm::vec3> points) {
         values.clear();
         for (std::size_t i = 0; i < points.size(); i += stride)
             values.push_back(points[i][axis]);
-        std::ranges::sort(values);
-        const std::size_t tail = values.size() / kTail;
-        bulk.center[axis] = values[values.size() / 2];
-        spread =
-            std::max(spread, static_cast<double>(values[values.size() - 1 - tail]) - values[tail]);
+        // The median, then the tails on both sides of it.
+        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+        const auto tail = static_cast<std::ptrdiff_t>(values.size() / kTail);
+        std::nth_element(values.begin(), middle, values.end());
+        bulk.center[axis] = *middle;
+        std::nth_element(values.begin(), values.begin() + tail, middle);
+        std::nth_element(middle, values.end() - 1 - tail, values.end());
+        const double low = *(values.begin() + tail);
+        const double high = *(values.end() - 1 - tail);
+        spread = std::max(spread, high - low);
     }
     if (!(spread > 0.0))
         return {};

@@ -165,17 +165,23 @@ Schedule::Schedule(const SequenceSet& set, const ScheduleOptions& options, const
     while (!heads.empty()) {
         const std::uint32_t s = heads.top().submesh;
         heads.pop();
-        const Block& block = blocks[s][next[s]++];
-        for (std::uint32_t k = 0; k < block.steps; ++k) {
-            const auto step = static_cast<std::uint32_t>(positions_[s].size());
-            triangles -= readers[s].trianglesAfter(step) - readers[s].trianglesAfter(step + 1);
-            error = std::max(error, readers[s].errorOf(step, set.max_stretch[s]));
-            positions_[s].push_back(static_cast<std::uint32_t>(triangles_.size()));
-            triangles_.push_back(triangles);
-            error_.push_back(static_cast<float>(100.0 * error / set.diagonal));
-        }
-        if (next[s] < blocks[s].size())
-            heads.push({blocks[s][next[s]].key(), s});
+        const std::vector<Block>& queue = blocks[s];
+        auto step = static_cast<std::uint32_t>(positions_[s].size());
+        std::uint64_t before = readers[s].trianglesAfter(step);
+        const auto head = [&] { return Head{queue[next[s]].key(), s}; };
+        do { // as long as it is the cheapest
+            for (std::uint32_t k = queue[next[s]++].steps; k > 0; --k, ++step) {
+                const std::uint64_t after = readers[s].trianglesAfter(step + 1);
+                triangles -= before - after;
+                before = after;
+                error = std::max(error, readers[s].errorOf(step, set.max_stretch[s]));
+                positions_[s].push_back(static_cast<std::uint32_t>(triangles_.size()));
+                triangles_.push_back(triangles);
+                error_.push_back(static_cast<float>(100.0 * error / set.diagonal));
+            }
+        } while (next[s] < queue.size() && (heads.empty() || heads.top() > head()));
+        if (next[s] < queue.size())
+            heads.push(head());
     }
 }
 
