@@ -1,12 +1,42 @@
 #include "bench/quality.h"
 
 #include "simplify/measure/surface_samples.h"
+#include "simplify/measure/vertex_distance.h"
+
+#include <algorithm>
 
 namespace lodestone::bench {
 
 Result<Distance> distanceToFull(const LodView& lod) {
     const Lod full = fullLod(*lod.scene);
     return measureDistance({lod.scene, &full}, lod, {}, {});
+}
+
+namespace {
+
+Result<double> farthestVertexOf(const LodView& view, const LodView& reference) {
+    const Result<VertexDistanceField> field =
+        measureVertexDistances(view, reference, {300'000}, {});
+    if (!field)
+        return tl::unexpected(field.error());
+    double farthest = 0.0;
+    for (const std::vector<VertexDistances>& submesh : *field)
+        for (const VertexDistances& primitive : submesh)
+            for (const float distance : primitive.max)
+                farthest = std::max(farthest, static_cast<double>(distance));
+    return farthest;
+}
+
+} // namespace
+
+Result<double> farthestVertex(const LodView& lod) {
+    const Lod full = fullLod(*lod.scene);
+    const LodView all{lod.scene, &full};
+    const Result<double> there = farthestVertexOf(lod, all);
+    const Result<double> back = farthestVertexOf(all, lod);
+    if (!there || !back)
+        return there ? back : there;
+    return std::max(*there, *back);
 }
 
 namespace {

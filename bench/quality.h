@@ -8,6 +8,10 @@ namespace lodestone::bench {
 // 300,000 samples a side, against the full scene.
 Result<Distance> distanceToFull(const LodView& lod);
 
+// The largest distance of up to 300,000 vertices, of the LOD from the full scene or the other way
+// round; % of the diagonal.
+Result<double> farthestVertex(const LodView& lod);
+
 // World area of a LOD over that of the full scene.
 Result<double> areaLeft(const LodView& lod);
 

@@ -81,6 +81,7 @@ Result<Distance> measureDistance(const LodView& a,
     distance.a_to_b_mean = percent(a_to_b->samples.mean());
     distance.b_to_a_mean = percent(b_to_a->samples.mean());
     distance.hausdorff = std::max(distance.a_to_b_max, distance.b_to_a_max);
+    distance.sampled_max = percent(std::max(a_to_b->samples.max, b_to_a->samples.max));
     distance.mean = 0.5 * (distance.a_to_b_mean + distance.b_to_a_mean);
     distance.rms = percent(std::max(a_to_b->samples.rms(), b_to_a->samples.rms()));
     distance.samples = a_to_b->samples.count + b_to_a->samples.count;
