@@ -12,6 +12,11 @@ namespace lodestone {
 struct Box {
     glm::vec3 low{0.0f};
     glm::vec3 high{0.0f};
+
+    float squaredDistance(const glm::vec3& p) const {
+        const glm::vec3 apart = glm::max(glm::max(low - p, p - high), glm::vec3(0.0f));
+        return glm::dot(apart, apart);
+    }
 };
 
 class BoxGrid {
@@ -62,9 +67,7 @@ void BoxGrid::visitNear(const glm::vec3& p, float reach, std::uint32_t count, Vi
     if (empty() || !(glm::dot(p, p) < kFar * kFar) || !(reach < kFar))
         return;
     const auto visit_box = [&](std::uint32_t index) {
-        const auto& [low, high] = boxes_[index];
-        const glm::vec3 apart = glm::max(glm::max(low - p, p - high), glm::vec3(0.0f));
-        if (glm::dot(apart, apart) < reach * reach)
+        if (boxes_[index].squaredDistance(p) < reach * reach)
             reach = visit(index);
     };
     for (std::size_t i = 0; i < wide_.size() && wide_[i] < count; ++i)

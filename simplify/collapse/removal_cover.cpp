@@ -1,8 +1,8 @@
 #include "simplify/collapse/removal_cover.h"
 
 #include "scene/transformed_box.h"
-#include "simplify/collapse/ball_tree.h"
 #include "simplify/collapse/box_grid.h"
+#include "simplify/collapse/box_tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -121,15 +121,15 @@ std::uint32_t stepWithin(const CollapseSequence& sequence, double limit) {
     return static_cast<std::uint32_t>(beyond - begin);
 }
 
-std::vector<BallTree::Corners>
+std::vector<BoxTree::Corners>
 trianglesAt(const CollapseSequence& sequence, const Submesh& submesh, std::uint32_t step) {
     std::vector<std::uint32_t> stands_for(sequence.complex.wedge_source.size());
     resolveWedges(sequence, step, stands_for);
-    std::vector<BallTree::Corners> triangles;
+    std::vector<BoxTree::Corners> triangles;
     for (std::size_t f = 0; f < sequence.complex.faces.size(); ++f) {
         if (sequence.face_death[f] <= step)
             continue;
-        BallTree::Corners& corners = triangles.emplace_back();
+        BoxTree::Corners& corners = triangles.emplace_back();
         for (std::size_t k = 0; k < 3; ++k)
             corners[k] =
                 wedgePosition(sequence, submesh, stands_for[sequence.complex.faces[f][k]], step);
@@ -142,16 +142,6 @@ double stretchOf(const Scene& scene, InstanceRange range) {
     for (std::uint32_t i = range.begin; i < range.end; ++i)
         stretch = std::max(stretch, scaleOf(scene.instances[i].transform));
     return stretch;
-}
-
-// No linear map stretches anything more than the root of the largest row sum of its Gram matrix;
-// exact where the axes stay at right angles.
-float mostStretchOf(const glm::mat3& linear) {
-    const glm::mat3 gram = glm::transpose(linear) * linear;
-    float most = 0.0f;
-    for (int c = 0; c < 3; ++c)
-        most = std::max(most, std::abs(gram[c].x) + std::abs(gram[c].y) + std::abs(gram[c].z));
-    return std::sqrt(most);
 }
 
 class CoverFinder {
@@ -178,7 +168,7 @@ private:
     // An instance that may hide others.
     struct Larger {
         std::uint32_t submesh = 0;
-        BallTree::Placement placement;
+        BoxTree::Placement placement;
     };
 
     void addInstances(std::uint32_t submesh, double tolerance, std::vector<Box>& boxes);
@@ -186,10 +176,10 @@ private:
 
     const Scene& scene_;
     std::span<const InstanceRange> ranges_;
-    std::vector<Sampled> sampled_;               // [submeshes]
-    std::vector<std::uint32_t> larger_;          // [submeshes] so many of instances_ are larger
-    std::vector<std::optional<BallTree>> trees_; // [submeshes]
-    glm::dvec3 origin_{0.0};                     // of the grid's coordinates
+    std::vector<Sampled> sampled_;              // [submeshes]
+    std::vector<std::uint32_t> larger_;         // [submeshes] so many of instances_ are larger
+    std::vector<std::optional<BoxTree>> trees_; // [submeshes]
+    glm::dvec3 origin_{0.0};                    // of the grid's coordinates
     std::vector<Larger> instances_;
     BoxGrid grid_; // of instances_
 };
@@ -200,11 +190,8 @@ void CoverFinder::addInstances(std::uint32_t submesh, double tolerance, std::vec
     local.max += tolerance;
     for (std::uint32_t i = ranges_[submesh].begin; i < ranges_[submesh].end; ++i) {
         const glm::dmat4& transform = scene_.instances[i].transform;
-        Larger& larger = instances_.emplace_back();
-        larger.submesh = submesh;
-        larger.placement.linear = glm::mat3(glm::dmat3(transform));
-        larger.placement.offset = glm::vec3(glm::dvec3(transform[3]) - origin_);
-        larger.placement.stretch = mostStretchOf(larger.placement.linear);
+        const glm::vec3 offset(glm::dvec3(transform[3]) - origin_);
+        instances_.push_back({submesh, {glm::mat3(glm::dmat3(transform)), offset}});
         const Bounds box = transformedBox(transform, local);
         boxes.push_back({glm::vec3(box.min - origin_), glm::vec3(box.max - origin_)});
     }
@@ -238,7 +225,7 @@ bool CoverFinder::gather(std::span<const CollapseSequence> sequences, double tol
         const double stretch = stretchOf(scene_, ranges_[s]);
         const double local_tolerance = stretch > 0.0 ? tolerance / stretch : 0.0;
         const std::uint32_t step = stepWithin(sequences[s], local_tolerance);
-        const std::vector<BallTree::Corners> local =
+        const std::vector<BoxTree::Corners> local =
             trianglesAt(sequences[s], scene_.submeshes[s], step);
         triangles += local.size() * ranges_[s].size();
         if (triangles > kMaxTriangles)

@@ -1,4 +1,4 @@
-#include "simplify/collapse/ball_tree.h"
+#include "simplify/collapse/box_tree.h"
 
 #include "simplify/measure/triangle.h"
 
@@ -8,7 +8,25 @@
 
 namespace lodestone {
 
-BallTree::BallTree(std::span<const Corners> triangles) {
+namespace {
+
+// No linear map stretches anything by more than the root of the largest row sum of its Gram matrix;
+// exact where the axes stay at right angles.
+float mostStretch2(const glm::mat3& linear) {
+    const glm::mat3 gram = glm::transpose(linear) * linear;
+    float most = 0.0f;
+    for (int c = 0; c < 3; ++c)
+        most = std::max(most, std::abs(gram[c].x) + std::abs(gram[c].y) + std::abs(gram[c].z));
+    return most;
+}
+
+} // namespace
+
+BoxTree::Placement::Placement(const glm::mat3& map, const glm::vec3& to)
+    : linear(map), offset(to), inverse(glm::inverse(map)),
+      least_stretch2(1.0f / mostStretch2(inverse)) {}
+
+BoxTree::BoxTree(std::span<const Corners> triangles) {
     if (triangles.empty())
         return;
     std::vector<Middle> middles; // x 3
@@ -21,7 +39,7 @@ BallTree::BallTree(std::span<const Corners> triangles) {
 }
 
 // Halves at the median of the middles' longest axis: depth log2 whatever the input.
-BallTree::Box BallTree::build(std::span<const Corners> triangles, std::span<Middle> middles) {
+Box BoxTree::build(std::span<const Corners> triangles, std::span<Middle> middles) {
     constexpr std::size_t kLeaf = 4;
     const std::size_t self = nodes_.size();
     nodes_.emplace_back();
@@ -53,37 +71,34 @@ BallTree::Box BallTree::build(std::span<const Corners> triangles, std::span<Midd
         }
         node.end = static_cast<std::uint32_t>(triangles_.size());
     }
-    node.center = (box.low + box.high) * 0.5f;
-    node.radius = 0.5f * glm::length(box.high - box.low);
+    node.box = box;
     nodes_[self] = node;
     return box;
 }
 
-float BallTree::nearest(const glm::vec3& point, const Placement& placement, float limit) const {
+float BoxTree::nearest(const glm::vec3& point, const Placement& placement, float limit) const {
     struct Waiting {
         std::uint32_t node = 0;
-        float distance = 0.0f; // no triangle of it is nearer
+        float least2 = 0.0f; // no triangle of it is nearer
     };
 
+    const glm::vec3 local = placement.inverse * (point - placement.offset);
     const auto waiting = [&](std::uint32_t node) {
-        const Node& ball = nodes_[node];
-        const glm::vec3 center = placement.linear * ball.center + placement.offset;
-        return Waiting{node, glm::length(point - center) - ball.radius * placement.stretch};
+        return Waiting{node, nodes_[node].box.squaredDistance(local) * placement.least_stretch2};
     };
     std::array<Waiting, 40> stack; // one a level
     std::size_t count = 0;
     if (!nodes_.empty())
         stack[count++] = waiting(0);
     while (count > 0) {
-        const auto [at, distance] = stack[--count];
-        // What is not a number is not near.
-        if (!(distance <= 0.0f || distance * distance < limit))
+        const auto [at, least2] = stack[--count];
+        if (least2 >= limit) // what a flat instance holds may be anywhere
             continue;
         const Node& node = nodes_[at];
         if (node.second != 0) {
             const Waiting first = waiting(at + 1);
             const Waiting second = waiting(node.second);
-            const bool swap = second.distance < first.distance;
+            const bool swap = second.least2 < first.least2;
             stack[count++] = swap ? first : second;
             stack[count++] = swap ? second : first;
             continue;

@@ -1,5 +1,7 @@
 #pragma once
 // The nearest of a submesh's triangles, for any instance of it: one tree serves them all.
+#include "simplify/collapse/box_grid.h"
+
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -8,19 +10,22 @@
 
 namespace lodestone {
 
-class BallTree {
+class BoxTree {
 public:
     using Corners = std::array<glm::vec3, 3>;
 
     // Where an instance puts the triangles.
     struct Placement {
-        glm::mat3 linear{1.0f};
-        glm::vec3 offset{0.0f};
-        float stretch = 1.0f; // the most that `linear` stretches anything
+        Placement(const glm::mat3& linear, const glm::vec3& offset);
+
+        glm::mat3 linear;
+        glm::vec3 offset;
+        glm::mat3 inverse;    // of linear; not finite if that is flat
+        float least_stretch2; // linear makes nothing shorter than by its root
     };
 
     // O(n log n).
-    explicit BallTree(std::span<const Corners> triangles);
+    explicit BoxTree(std::span<const Corners> triangles);
 
     // Squared distance of a point from the nearest triangle, if that is less than `limit`, else
     // `limit`.
@@ -29,16 +34,10 @@ public:
 private:
     // Around triangles; an inner node's first child follows it.
     struct Node {
-        glm::vec3 center{0.0f};
-        float radius = 0.0f;
+        Box box;
         std::uint32_t begin = 0; // of a leaf's triangles_
         std::uint32_t end = 0;
         std::uint32_t second = 0; // child; 0: a leaf
-    };
-
-    struct Box {
-        glm::vec3 low{0.0f};
-        glm::vec3 high{0.0f};
     };
 
     struct Middle {
