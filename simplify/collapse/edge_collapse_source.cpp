@@ -273,15 +273,19 @@ enum class RemovalRule : std::uint8_t { ByCost, ByPaper };
 
 void planRemovals(SequenceSet& set, const Bounds& bounds, RemovalRule rule, const JobContext& job) {
     constexpr double kCoverTolerance = 2e-4; // of the diagonal
+    std::vector<SubmeshFacts> facts(set.ranges.size());
+    tbb::parallel_for(std::size_t{0}, facts.size(), [&](std::size_t s) {
+        facts[s] = factsOf(*set.scene, set.scene->submeshes[s], set.ranges[s].size());
+    });
     const std::vector<Cover> covers =
-        findCovers(*set.scene, set.ranges, set.sequences, kCoverTolerance * set.diagonal);
+        findCovers(*set.scene, set.ranges, facts, set.sequences, kCoverTolerance * set.diagonal);
     const std::size_t in_all = set.scene->instances.size();
     tbb::parallel_for(std::size_t{0}, covers.size(), [&](std::size_t s) {
         const InstanceRange range = set.ranges[s];
         const bool thinned = rule == RemovalRule::ByCost || isCrowd(range.size(), in_all);
         if (range.size() < 2 || !thinned || job.stopRequested())
             return;
-        set.removals[s] = planRemoval(*set.scene, range, bounds, covers[s]);
+        set.removals[s] = planRemoval(*set.scene, range, facts[s], bounds, covers[s]);
         if (rule == RemovalRule::ByPaper)
             putOff(set.removals[s]);
     });

@@ -13,47 +13,6 @@ namespace lodestone {
 
 namespace {
 
-// What the plan needs to know of a submesh.
-struct SubmeshFacts {
-    Bounds bounds;
-    glm::dvec3 pivot{0.0};
-    double area = 0.0;
-    glm::dmat3 normal_moment{0.0}; // area-weighted mean of n n^T
-};
-
-SubmeshFacts factsOf(const Submesh& submesh) {
-    SubmeshFacts facts;
-    facts.bounds = localBounds(submesh);
-    glm::dvec3 centroid(0.0);
-    for (const Primitive& primitive : submesh.primitives) {
-        if (primitive.mode != PrimitiveMode::Triangles)
-            continue;
-        const Geometry& geometry = *primitive.geometry;
-        for (std::size_t t = 0; t < geometry.triangleCount(); ++t) {
-            std::array<glm::dvec3, 3> corner;
-            for (std::size_t k = 0; k < 3; ++k)
-                corner[k] = glm::dvec3(geometry.positions[geometry.indices[3 * t + k]]);
-            const glm::dvec3 cross = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
-            const double length = glm::length(cross);
-            if (!(length > 0.0))
-                continue;
-            facts.area += 0.5 * length;
-            facts.normal_moment += glm::outerProduct(cross, cross) * (0.5 / length);
-            centroid += (corner[0] + corner[1] + corner[2]) * (length / 6.0);
-        }
-    }
-    if (facts.area > 0.0) {
-        facts.normal_moment /= facts.area;
-        centroid /= facts.area;
-    }
-    // The submesh's own origin if it lies in or near its box (a leaf's stalk), else its centroid.
-    const glm::dvec3 margin(0.1 * facts.bounds.diagonal());
-    const bool near = glm::all(glm::lessThanEqual(facts.bounds.min - margin, glm::dvec3(0.0))) &&
-                      glm::all(glm::greaterThanEqual(facts.bounds.max + margin, glm::dvec3(0.0)));
-    facts.pivot = near ? glm::dvec3(0.0) : centroid;
-    return facts;
-}
-
 // World area of an instance: sqrt of the mean of |C n|^2, exact for similarities.
 double instanceArea(const SubmeshFacts& facts, const glm::dmat3& m) {
     const glm::dmat3 cofactor(
@@ -254,12 +213,12 @@ void weighRemovals(RemovalSequence& removal,
 
 RemovalSequence planRemoval(const Scene& scene,
                             InstanceRange range,
+                            const SubmeshFacts& facts,
                             const Bounds& scene_bounds,
                             const Cover& cover) {
     const Submesh& submesh = scene.submeshes[scene.instances[range.begin].submesh];
     if (triangleCount(submesh) == 0) // points and lines gain nothing by going
         return {};
-    const SubmeshFacts facts = factsOf(submesh);
     const auto [members, spots] = crowdOf(scene, range, facts, scene_bounds);
     std::vector<std::uint32_t> order = removalOrder(members, spots);
     std::ranges::reverse(order); // the longest-lived first

@@ -46,10 +46,12 @@ bool isCrowd(std::uint32_t instances, std::size_t instances_in_all);
 // collapse. Among themselves their order stays.
 void putOff(RemovalSequence& removal);
 
-// Plans the removals of a submesh's instances. scene_bounds: those of the original model; instances
-// that would leave it when grown go first within their stratum. O(n log n), any thread.
+// Plans the removals of a submesh's instances. facts: the submesh's. scene_bounds: those of the
+// original model; instances that would leave it when grown go first within their stratum. O(n log
+// n), any thread.
 RemovalSequence planRemoval(const Scene& scene,
                             InstanceRange range,
+                            const SubmeshFacts& facts,
                             const Bounds& scene_bounds,
                             const Cover& cover);
 

@@ -16,18 +16,9 @@ namespace {
 
 constexpr double kLarger = 4.0;                // x the area, to count as a cover
 constexpr std::size_t kMaxTriangles = 100'000; // of all covers
-constexpr std::size_t kSamples = 4;            // points of a submesh
 constexpr double kCovered = 0.5;               // x the radius, at most
 constexpr std::uint32_t kInstances = 6;        // of a submesh that are looked at
 constexpr double kOff = 0.1;                   // x the least radius, that a cover may be
-
-struct Sampled {
-    std::array<glm::dvec3, kSamples> points{};
-    glm::dvec3 color{1.0}; // about as bright as it looks
-    double radius = 0.0;   // half its box' diagonal
-    double area = 0.0;
-    double mean_area = 0.0; // of its instances, world
-};
 
 double scaleOf(const glm::dmat4& m) {
     return std::sqrt((glm::dot(glm::dvec3(m[0]), glm::dvec3(m[0])) +
@@ -36,80 +27,18 @@ double scaleOf(const glm::dmat4& m) {
                      3.0);
 }
 
-// Appends the areas of a primitive's triangles; their sum.
-double addAreas(const Primitive& primitive, std::vector<float>& areas) {
-    if (primitive.mode != PrimitiveMode::Triangles)
-        return 0.0;
-    const Geometry& geometry = *primitive.geometry;
-    double sum = 0.0;
-    for (std::size_t i = 0; i + 2 < geometry.indices.size(); i += 3) {
-        const glm::vec3 a = geometry.positions[geometry.indices[i]];
-        const glm::vec3 b = geometry.positions[geometry.indices[i + 1]];
-        const glm::vec3 c = geometry.positions[geometry.indices[i + 2]];
-        const glm::dvec3 normal(glm::cross(b - a, c - a));
-        areas.push_back(static_cast<float>(0.5 * glm::length(normal)));
-        sum += static_cast<double>(areas.back());
-    }
-    return sum;
+double radiusOf(const SubmeshFacts& facts) {
+    return 0.5 * facts.bounds.diagonal();
 }
 
-glm::dvec3 middleOf(const Submesh& submesh, std::size_t triangle) {
-    for (const Primitive& primitive : submesh.primitives) {
-        if (primitive.mode != PrimitiveMode::Triangles)
-            continue;
-        const Geometry& geometry = *primitive.geometry;
-        if (triangle >= geometry.triangleCount()) {
-            triangle -= geometry.triangleCount();
-            continue;
-        }
-        glm::dvec3 sum(0.0);
-        for (std::size_t k = 0; k < 3; ++k)
-            sum += glm::dvec3(geometry.positions[geometry.indices[3 * triangle + k]]);
-        return sum / 3.0;
-    }
-    return glm::dvec3(0.0);
-}
-
-glm::dvec3 colorOf(const Scene& scene, const Primitive& primitive) {
-    if (primitive.material >= scene.materials.size())
-        return glm::dvec3(1.0);
-    const glm::vec4 linear = scene.materials[primitive.material].base_color;
-    return glm::sqrt(glm::clamp(glm::dvec3(linear), glm::dvec3(0.0), glm::dvec3(1.0)));
-}
-
-Sampled sample(const Scene& scene, std::size_t s, InstanceRange range) {
-    const Submesh& submesh = scene.submeshes[s];
-    Sampled sampled;
-    glm::dvec3 color(0.0);
-    std::vector<float> areas;
-    for (const Primitive& primitive : submesh.primitives) {
-        const double area = addAreas(primitive, areas);
-        sampled.area += area;
-        color += colorOf(scene, primitive) * area;
-    }
-    if (!(sampled.area > 0.0) || range.size() == 0)
-        return sampled;
-    sampled.color = color / sampled.area;
+// World area of a submesh's mean instance.
+double meanAreaOf(const Scene& scene, InstanceRange range, const SubmeshFacts& facts) {
     double scale2 = 0.0;
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
         const double scale = scaleOf(scene.instances[i].transform);
         scale2 += scale * scale;
     }
-    sampled.mean_area = sampled.area * scale2 / range.size();
-    if (range.size() == 1) // nothing to cover
-        return sampled;
-    sampled.radius = 0.5 * localBounds(submesh).diagonal();
-    double passed = 0.0;
-    std::size_t next = 0; // points lie evenly along the triangles' area
-    for (std::size_t t = 0; t < areas.size() && next < kSamples; ++t) {
-        passed += static_cast<double>(areas[t]);
-        while (next < kSamples &&
-               passed * kSamples >= (static_cast<double>(next) + 0.5) * sampled.area)
-            sampled.points[next++] = middleOf(submesh, t);
-    }
-    for (; next < kSamples; ++next) // rounding
-        sampled.points[next] = sampled.points[0];
-    return sampled;
+    return range.size() == 0 ? 0.0 : facts.area * scale2 / range.size();
 }
 
 // The coarsest step whose estimated distance is within the limit, in the submesh's units.
@@ -146,12 +75,13 @@ double stretchOf(const Scene& scene, InstanceRange range) {
 
 class CoverFinder {
 public:
-    CoverFinder(const Scene& scene, std::span<const InstanceRange> ranges)
-        : scene_(scene), ranges_(ranges), sampled_(ranges.size()), larger_(ranges.size(), 0),
+    CoverFinder(const Scene& scene,
+                std::span<const InstanceRange> ranges,
+                std::span<const SubmeshFacts> facts)
+        : scene_(scene), ranges_(ranges), facts_(facts), larger_(ranges.size(), 0),
           trees_(ranges.size()) {
-        tbb::parallel_for(std::size_t{0}, ranges.size(), [&](std::size_t s) {
-            sampled_[s] = sample(scene, s, ranges[s]);
-        });
+        for (std::size_t s = 0; s < ranges.size(); ++s)
+            mean_areas_.push_back(meanAreaOf(scene, ranges[s], facts[s]));
     }
 
     // False if nothing can be covered.
@@ -176,7 +106,8 @@ private:
 
     const Scene& scene_;
     std::span<const InstanceRange> ranges_;
-    std::vector<Sampled> sampled_;              // [submeshes]
+    std::span<const SubmeshFacts> facts_;       // [submeshes]
+    std::vector<double> mean_areas_;            // [submeshes] of their instances, world
     std::vector<std::uint32_t> larger_;         // [submeshes] so many of instances_ are larger
     std::vector<std::optional<BoxTree>> trees_; // [submeshes]
     glm::dvec3 origin_{0.0};                    // of the grid's coordinates
@@ -201,26 +132,25 @@ bool CoverFinder::gather(std::span<const CollapseSequence> sequences, double tol
     double least = std::numeric_limits<double>::infinity(); // area of what may need a cover
     double least_radius = least;
     for (std::size_t s = 0; s < ranges_.size(); ++s) {
-        const Sampled& own = sampled_[s];
-        if (ranges_[s].size() < 2 || !(own.mean_area > 0.0))
+        if (ranges_[s].size() < 2 || !(mean_areas_[s] > 0.0))
             continue;
-        least = std::min(least, own.mean_area);
-        least_radius = std::min(least_radius, own.radius * std::sqrt(own.mean_area / own.area));
+        least = std::min(least, mean_areas_[s]);
+        least_radius = std::min(least_radius,
+                                radiusOf(facts_[s]) * std::sqrt(mean_areas_[s] / facts_[s].area));
     }
     tolerance = std::max(tolerance, kOff * least_radius);
     std::vector<std::uint32_t> order(ranges_.size()); // the largest first
     std::iota(order.begin(), order.end(), 0u);
     std::ranges::stable_sort(
-        order, std::greater{}, [&](std::uint32_t s) { return sampled_[s].mean_area; });
+        order, std::greater{}, [&](std::uint32_t s) { return mean_areas_[s]; });
     std::vector<Box> boxes;
     std::size_t triangles = 0;
     std::size_t covered = 0; // of order: those that already know what is larger
     for (const std::uint32_t s : order) {
-        const double area = sampled_[s].mean_area;
+        const double area = mean_areas_[s];
         if (!(area >= kLarger * least))
             break;
-        for (; covered < order.size() && area < kLarger * sampled_[order[covered]].mean_area;
-             ++covered)
+        for (; covered < order.size() && area < kLarger * mean_areas_[order[covered]]; ++covered)
             larger_[order[covered]] = static_cast<std::uint32_t>(boxes.size());
         const double stretch = stretchOf(scene_, ranges_[s]);
         const double local_tolerance = stretch > 0.0 ? tolerance / stretch : 0.0;
@@ -243,12 +173,12 @@ bool CoverFinder::gather(std::span<const CollapseSequence> sequences, double tol
 
 CoverFinder::Measured
 CoverFinder::measure(std::size_t submesh, const glm::dvec3& world, double radius) const {
-    const Sampled& own = sampled_[submesh];
+    const SubmeshFacts& own = facts_[submesh];
     const glm::vec3 at(world - origin_);
     Measured best{radius * radius, radius * radius};
     const auto visit = [&](std::uint32_t index) {
         const auto& [larger, placement] = instances_[index];
-        const glm::dvec3 contrast = (sampled_[larger].color - own.color) * (0.5 * radius);
+        const glm::dvec3 contrast = (facts_[larger].color - own.color) * (0.5 * radius);
         const double cost_of_color = glm::dot(contrast, contrast) / 3.0;
         const auto limit = static_cast<float>(best.cost2 - cost_of_color);
         const float distance2 =
@@ -263,23 +193,24 @@ CoverFinder::measure(std::size_t submesh, const glm::dvec3& world, double radius
 
 Cover CoverFinder::coverOf(std::size_t submesh) const {
     const InstanceRange range = ranges_[submesh];
-    const Sampled& own = sampled_[submesh];
-    if (range.size() < 2 || !(own.mean_area > 0.0) || larger_[submesh] == 0)
+    const SubmeshFacts& own = facts_[submesh];
+    if (range.size() < 2 || !(mean_areas_[submesh] > 0.0) || larger_[submesh] == 0)
         return {};
     const std::uint32_t count = std::min(range.size(), kInstances);
     const auto transform_of = [&](std::uint32_t k) -> const glm::dmat4& {
         const auto offset = std::uint64_t{k} * range.size() / count;
         return scene_.instances[range.begin + static_cast<std::uint32_t>(offset)].transform;
     };
+    const auto points_an_instance = static_cast<double>(own.points.size());
     double reach2 = 0.0;
     for (std::uint32_t k = 0; k < count; ++k) {
-        const double reach = kCovered * own.radius * scaleOf(transform_of(k));
-        reach2 += kSamples * reach * reach;
+        const double reach = kCovered * radiusOf(own) * scaleOf(transform_of(k));
+        reach2 += points_an_instance * reach * reach;
     }
     Measured sum;
     for (std::uint32_t k = 0; k < count; ++k) {
         const glm::dmat4& transform = transform_of(k);
-        const double radius = own.radius * scaleOf(transform);
+        const double radius = radiusOf(own) * scaleOf(transform);
         for (const glm::dvec3& point : own.points) {
             const Measured measured =
                 measure(submesh, glm::dvec3(transform * glm::dvec4(point, 1.0)), radius);
@@ -289,7 +220,7 @@ Cover CoverFinder::coverOf(std::size_t submesh) const {
                 return {};
         }
     }
-    const double points = kSamples * static_cast<double>(count);
+    const double points = points_an_instance * static_cast<double>(count);
     return {std::sqrt(sum.distance2 / points), std::sqrt(sum.cost2 / points)};
 }
 
@@ -297,10 +228,11 @@ Cover CoverFinder::coverOf(std::size_t submesh) const {
 
 std::vector<Cover> findCovers(const Scene& scene,
                               std::span<const InstanceRange> ranges,
+                              std::span<const SubmeshFacts> facts,
                               std::span<const CollapseSequence> sequences,
                               double tolerance) {
     std::vector<Cover> covers(ranges.size());
-    CoverFinder finder(scene, ranges);
+    CoverFinder finder(scene, ranges, facts);
     if (finder.gather(sequences, tolerance))
         tbb::parallel_for(
             std::size_t{0}, covers.size(), [&](std::size_t s) { covers[s] = finder.coverOf(s); });

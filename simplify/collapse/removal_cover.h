@@ -1,5 +1,6 @@
 #pragma once
 // What is left to look at where an instance goes: grass lies on the ground, a window on its wall.
+#include "simplify/collapse/removal_facts.h"
 #include "simplify/collapse/sequence.h"
 
 namespace lodestone {
@@ -15,10 +16,11 @@ struct Cover {
 // Covers of the submeshes with several instances, [submeshes]. Rough: sampled at a few instances;
 // a larger instance is one of a submesh whose mean instance has at least four times the area, as
 // far as 100,000 triangles go, the largest first, off by up to `tolerance` (world) or a tenth of
-// the smallest submesh's radius. sequences [submeshes]. Deterministic. Any thread.
+// the smallest submesh's radius. facts, sequences [submeshes]. Deterministic. Any thread.
 // O(wedges + instances).
 std::vector<Cover> findCovers(const Scene& scene,
                               std::span<const InstanceRange> ranges,
+                              std::span<const SubmeshFacts> facts,
                               std::span<const CollapseSequence> sequences,
                               double tolerance);
 

@@ -30,8 +30,15 @@ ScenePtr scattered(int count) {
     return meshes::sceneOf({submeshOf({meshes::grid(2)})}, {transforms});
 }
 
+// Of the first submesh.
+RemovalSequence planned(const ScenePtr& scene, const Bounds& bounds, const Cover& cover = {}) {
+    const InstanceRange range = instanceRanges(*scene)[0];
+    return planRemoval(
+        *scene, range, factsOf(*scene, scene->submeshes[0], range.size()), bounds, cover);
+}
+
 RemovalSequence planned(const ScenePtr& scene) {
-    return planRemoval(*scene, instanceRanges(*scene)[0], worldBounds(*scene), {});
+    return planned(scene, worldBounds(*scene));
 }
 
 // Variance over mean of how many of these instances lie in each of 25 cells, relative to all
@@ -176,13 +183,13 @@ TEST(Removal, OfPairsTheOneThatWouldLeaveTheModelGoesFirst) {
     Bounds bounds = worldBounds(*scene);
     bounds.max += glm::dvec3(5.0);
     bounds.min -= glm::dvec3(0.0, 5.0, 5.0); // the wall is at x = 0
-    const RemovalSequence removal = planRemoval(*scene, instanceRanges(*scene)[0], bounds, {});
+    const RemovalSequence removal = planned(scene, bounds);
     // Growing about their origin at x = 0 keeps all inside; about a centroid it does not.
     auto centred = std::make_shared<Geometry>(*meshes::moved(meshes::grid(2), {20.0, 0.0, 0.0}));
     for (glm::dmat4& transform : transforms)
         transform[3].x -= 20.0;
     const ScenePtr off = meshes::sceneOf({submeshOf({centred})}, {transforms});
-    const RemovalSequence by_centroid = planRemoval(*off, instanceRanges(*off)[0], bounds, {});
+    const RemovalSequence by_centroid = planned(off, bounds);
     EXPECT_NEAR(by_centroid.pivot.x, 20.5, 1e-6);
     EXPECT_EQ(removal.pivot, glm::dvec3(0.0));
     for (std::size_t k = 0; k < 8; ++k)
@@ -235,9 +242,13 @@ ScenePtr bladesOver(double height) {
 
 std::vector<Cover> coversOf(const ScenePtr& scene) {
     std::vector<CollapseSequence> sequences;
-    for (const Submesh& submesh : scene->submeshes)
-        sequences.push_back(meshes::sequenceOf(submesh));
-    return findCovers(*scene, instanceRanges(*scene), sequences, 1e-6);
+    std::vector<SubmeshFacts> facts;
+    const std::vector<InstanceRange> ranges = instanceRanges(*scene);
+    for (std::size_t s = 0; s < ranges.size(); ++s) {
+        sequences.push_back(meshes::sequenceOf(scene->submeshes[s]));
+        facts.push_back(factsOf(*scene, scene->submeshes[s], ranges[s].size()));
+    }
+    return findCovers(*scene, ranges, facts, sequences, 1e-6);
 }
 
 TEST(Removal, WhatLiesOnALargerSurfaceIsCoveredByIt) {
@@ -263,10 +274,9 @@ TEST(Removal, AnotherColourIsMissedMore) {
 
 TEST(Removal, ACoverMakesItCheaperAndKeepsSurvivorsFromOutgrowingIt) {
     const ScenePtr scene = bladesOver(0.01);
-    const InstanceRange range = instanceRanges(*scene)[0];
     const Bounds bounds = worldBounds(*scene);
-    const RemovalSequence bare = planRemoval(*scene, range, bounds, {});
-    const RemovalSequence covered = planRemoval(*scene, range, bounds, coversOf(scene)[0]);
+    const RemovalSequence bare = planned(scene, bounds);
+    const RemovalSequence covered = planned(scene, bounds, coversOf(scene)[0]);
     EXPECT_EQ(*bare.order, *covered.order);
     EXPECT_LT(covered.cost.front(), 0.01 * bare.cost.front());
     EXPECT_GT(covered.cost.back(), 10.0 * covered.cost.front()) << "the last ones stay dear";
@@ -277,10 +287,8 @@ TEST(Removal, ACoverMakesItCheaperAndKeepsSurvivorsFromOutgrowingIt) {
 }
 
 TEST(Removal, OfAFewOfAKindEachCounts) {
-    const RemovalSequence few =
-        planRemoval(*scattered(4), instanceRanges(*scattered(4))[0], {}, {1e-6, 1e-6});
-    const RemovalSequence bare =
-        planRemoval(*scattered(4), instanceRanges(*scattered(4))[0], {}, {});
+    const RemovalSequence few = planned(scattered(4), {}, {1e-6, 1e-6});
+    const RemovalSequence bare = planned(scattered(4), {});
     EXPECT_NEAR(few.cost.front(), 0.25 * bare.cost.front(), 1e-9);
 }
 
