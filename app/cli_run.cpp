@@ -194,7 +194,11 @@ Result<RunOutcome> runAlgorithm(const RunRequest& request, const JobContext& job
     if (job.stopRequested())
         return cancelled();
     if (request.measure) {
-        const Result<Distance> distance = measureOutcome(*request.scene, outcome, job);
+        const Lod full = fullLod(*request.scene);
+        const Result<Distance> distance = measureDistance({request.scene.get(), &full},
+                                                          {outcome.scene.get(), outcome.lod.get()},
+                                                          DistanceOptions{},
+                                                          job);
         if (!distance)
             return tl::unexpected<Error>(distance.error());
         outcome.distance = *distance;
@@ -203,10 +207,13 @@ Result<RunOutcome> runAlgorithm(const RunRequest& request, const JobContext& job
 }
 
 Result<Distance>
-measureOutcome(const Scene& original, const RunOutcome& outcome, const JobContext& job) {
+measureFile(const Scene& original, const std::filesystem::path& path, const JobContext& job) {
+    const Result<ScenePtr> written = importScene(path, job);
+    if (!written)
+        return tl::unexpected<Error>(written.error());
     const Lod full = fullLod(original);
-    return measureDistance(
-        {&original, &full}, {outcome.scene.get(), outcome.lod.get()}, DistanceOptions{}, job);
+    const Lod all = fullLod(**written);
+    return measureDistance({&original, &full}, {written->get(), &all}, DistanceOptions{}, job);
 }
 
 } // namespace lodestone

@@ -48,8 +48,9 @@ Result<LoadedInput> loadInput(const std::filesystem::path& path, const JobContex
 // Errors: those of the algorithm; Cancelled.
 Result<RunOutcome> runAlgorithm(const RunRequest& request, const JobContext& job);
 
-// Distance of the outcome from the original scene.
+// Distance of what a file holds from the original scene: writing one rounds. Errors: those of
+// importing and measuring.
 Result<Distance>
-measureOutcome(const Scene& original, const RunOutcome& outcome, const JobContext& job);
+measureFile(const Scene& original, const std::filesystem::path& path, const JobContext& job);
 
 } // namespace lodestone

@@ -117,18 +117,18 @@ Result<void> runSimplify(const SimplifyOptions& options, const CliEnvironment& e
     outcome->seconds.load = input->seconds;
     outcome->notes.insert(
         outcome->notes.begin(), input->scene->notes.begin(), input->scene->notes.end());
-    if (options.measure) {
-        bar.stage("measure");
-        const Result<Distance> distance = measureOutcome(*input->scene, *outcome, bar.context());
-        if (!distance)
-            return tl::unexpected<Error>(distance.error());
-        outcome->distance = *distance;
-    }
     if (environment.stop.stop_requested())
         return cancelled();
     bar.stage("write");
     if (Result<void> written = writeOutcome(*request, options.output, *outcome); !written)
         return written;
+    if (options.measure) {
+        bar.stage("measure");
+        const Result<Distance> distance = measureFile(*input->scene, options.output, bar.context());
+        if (!distance)
+            return tl::unexpected<Error>(distance.error());
+        outcome->distance = *distance;
+    }
     bar.finish();
     environment.out << (options.json ? outcomeJson(*outcome)
                                      : outcomeText(*outcome, countScene(*input->scene)));
@@ -175,7 +175,8 @@ void addSimplifyCommand(CLI::App& app, ChosenCommand& chosen) {
                     "none | quantize (KHR_mesh_quantization) | meshopt "
                     "(EXT_meshopt_compression) | draco (KHR_draco_mesh_compression)")
         ->type_name("HOW");
-    command.add_flag("--measure", options->measure, "also measure the distance from the input");
+    command.add_flag(
+        "--measure", options->measure, "also measure how far what was written is from the input");
     command.add_flag("--json", options->json, "one JSON object on stdout");
     addThreadsOption(command, chosen);
     command.footer(parametersText());

@@ -39,6 +39,27 @@ std::uint64_t writtenBytes(const std::filesystem::path& path) {
     return missing ? 0 : bytes;
 }
 
+// What is in a file is what is measured: writing one rounds.
+Result<void> readBack(const std::filesystem::path& path, Column& column) {
+    const Result<ScenePtr> read = importScene(path, {});
+    if (!read)
+        return tl::unexpected(read.error());
+    column.scene = *read;
+    column.lod = std::make_shared<const Lod>(fullLod(**read));
+    column.worth.bytes = writtenBytes(path);
+    return {};
+}
+
+// Writes a level of detail and reads it back.
+Result<void> throughFile(const std::filesystem::path& path, Column& column) {
+    const Result<ExportReport> written = exportScene(*column.scene, *column.lod, path, {});
+    if (!written)
+        return tl::unexpected(written.error());
+    column.worth.triangles = column.lod->triangles;
+    column.worth.instances = column.lod->instances;
+    return readBack(path, column);
+}
+
 class SheetMaker {
 public:
     SheetMaker(const PeerBench& bench, const ScenePtr& scene) : bench_(bench), scene_(scene) {}
@@ -55,7 +76,6 @@ private:
     Result<void> addOtherOrdering();
     // Our level of detail at as many triangles; made once each. Index into ours_.
     Result<std::size_t> oursAt(const LodSource& source, const Target& target);
-    Result<void> exportPeer(Contestant& contestant);
     Result<void> measureAll();
     Result<void> measureDistances(std::span<Column* const> columns);
     void measurePictures(std::span<Column* const> columns);
@@ -125,12 +145,10 @@ void SheetMaker::addPrograms() {
             Result<double> seconds = peer.run(scratch_.path() / "in.glb", out);
             if (!seconds || made.scene)
                 return seconds;
-            const Result<ScenePtr> read = importScene(out, {});
-            if (!read)
+            if (const Result<void> read = readBack(out, made); !read)
                 return tl::unexpected(read.error());
-            made.scene = *read;
-            made.lod = std::make_shared<const Lod>(fullLod(**read));
-            made.worth.bytes = writtenBytes(out);
+            made.worth.triangles = made.lod->triangles;
+            made.worth.instances = made.lod->instances;
             return seconds;
         };
         contestants_.push_back(std::move(contestant));
@@ -210,25 +228,13 @@ Result<std::size_t> SheetMaker::oursAt(const LodSource& source, const Target& ta
     Column& made = ours_.emplace_back();
     made.scene = source.scene();
     made.lod = std::make_shared<const Lod>(source.readOut(resolved.position, nullptr));
-    const std::filesystem::path path = scratch_.path() / "ours.glb";
-    const Result<ExportReport> written = exportScene(*made.scene, *made.lod, path, {});
-    if (!written)
-        return tl::unexpected(written.error());
-    made.worth.bytes = writtenBytes(path);
+    if (const Result<void> read = throughFile(scratch_.path() / "ours.glb", made); !read)
+        return tl::unexpected(read.error());
     ++sheet_.files_of_ours;
     made.worth.predicted_bytes = bytes.bytes(source.shapeAt(resolved.position));
     if (made.worth.predicted_bytes == made.worth.bytes)
         ++sheet_.files_as_predicted;
     return known->second;
-}
-
-Result<void> SheetMaker::exportPeer(Contestant& contestant) {
-    const std::filesystem::path path = scratch_.path() / "peer.glb";
-    const Result<ExportReport> written = exportScene(*scene_, *contestant.made.lod, path, {});
-    if (!written)
-        return tl::unexpected(written.error());
-    contestant.made.worth.bytes = writtenBytes(path);
-    return {};
 }
 
 Result<void> SheetMaker::measureDistances(std::span<Column* const> columns) {
@@ -238,8 +244,6 @@ Result<void> SheetMaker::measureDistances(std::span<Column* const> columns) {
             {scene_.get(), &full}, {column->scene.get(), column->lod.get()}, {bench_.samples}, {});
         if (!distance)
             return tl::unexpected(distance.error());
-        column->worth.triangles = column->lod->triangles;
-        column->worth.instances = column->lod->instances;
         column->worth.maximum = distance->hausdorff;
         column->worth.mean = distance->mean;
     }
@@ -272,11 +276,12 @@ Result<void> SheetMaker::measureAll() {
         if (!contestant.row.failure.empty())
             continue;
         if (contestant.row.kind == PeerKind::Call)
-            if (const Result<void> written = exportPeer(contestant); !written)
-                contestant.row.failure = written.error().message;
-        const Result<std::size_t> at =
-            oursAt(*source_,
-                   {Target::Kind::Triangles, static_cast<double>(contestant.made.lod->triangles)});
+            if (const Result<void> read =
+                    throughFile(scratch_.path() / "peer.glb", contestant.made);
+                !read)
+                contestant.row.failure = read.error().message;
+        const auto triangles = static_cast<double>(contestant.made.worth.triangles);
+        const Result<std::size_t> at = oursAt(*source_, {Target::Kind::Triangles, triangles});
         if (!at)
             return tl::unexpected(at.error());
         rivals[i] = *at;

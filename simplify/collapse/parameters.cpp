@@ -47,6 +47,18 @@ void addAttributeWeights(std::vector<ParameterInfo>& parameters) {
                                          weights.motion));
 }
 
+ParameterInfo removalRuleParameter() {
+    ParameterInfo rule;
+    rule.id = "removal-rule";
+    rule.label = "Removal rule";
+    rule.tooltip = "Instances go when that costs less than collapsing on or, as the paper has it, "
+                   "once nothing is left to collapse, of submeshes with 5 % of all instances or "
+                   "1,000.";
+    rule.kind = ParameterInfo::Kind::Choice;
+    rule.choices = {"by-cost", "paper"};
+    return rule;
+}
+
 } // namespace
 
 std::vector<ParameterInfo> collapseParameters() {
@@ -104,22 +116,6 @@ ParameterInfo removalParameter() {
     removal.fallback = 1.0;
     return removal;
 }
-
-namespace {
-
-ParameterInfo removalRuleParameter() {
-    ParameterInfo rule;
-    rule.id = "removal-rule";
-    rule.label = "Removal rule";
-    rule.tooltip = "Instances go when that costs less than collapsing on or, as the paper has it, "
-                   "once nothing is left to collapse, of submeshes with 5 % of all instances or "
-                   "1,000.";
-    rule.kind = ParameterInfo::Kind::Choice;
-    rule.choices = {"by-cost", "paper"};
-    return rule;
-}
-
-} // namespace
 
 void addRemovalParameters(std::vector<ParameterInfo>& parameters) {
     parameters.push_back(removalParameter());

@@ -261,7 +261,10 @@ TEST_F(CliTest, SimplifyReportsWhatTheWrittenFileHolds) {
         EXPECT_GT(row["triangles"], 0);
         EXPECT_EQ(row["bytes"], std::filesystem::file_size(file));
         EXPECT_EQ(row["bytes"], row["predicted_bytes"]);
+        const Json distance = Json::parse(run({"distance", chair(), file, "--json"}).out);
         EXPECT_GT(row["error"]["hausdorff"], 0.0);
+        for (const char* key : {"hausdorff", "mean", "rms"})
+            EXPECT_EQ(row["error"][key], distance[key]) << key;
         const Json info = Json::parse(run({"info", file, "--json"}).out);
         EXPECT_EQ(info["triangles"], row["triangles"]);
         EXPECT_EQ(info["unique_triangles"], row["unique_triangles"]);
