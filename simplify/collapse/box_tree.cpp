@@ -24,7 +24,12 @@ float mostStretch2(const glm::mat3& linear) {
 
 BoxTree::Placement::Placement(const glm::mat3& map, const glm::vec3& to)
     : linear(map), offset(to), inverse(glm::inverse(map)),
-      least_stretch2(1.0f / mostStretch2(inverse)) {}
+      least_stretch2(1.0f / mostStretch2(inverse)) {
+    if (std::isfinite(least_stretch2))
+        return;
+    inverse = glm::mat3(0.0f); // flat: what it holds may be anywhere
+    least_stretch2 = 0.0f;
+}
 
 BoxTree::BoxTree(std::span<const Corners> triangles) {
     if (triangles.empty())
@@ -92,7 +97,7 @@ float BoxTree::nearest(const glm::vec3& point, const Placement& placement, float
         stack[count++] = waiting(0);
     while (count > 0) {
         const auto [at, least2] = stack[--count];
-        if (least2 >= limit) // what a flat instance holds may be anywhere
+        if (least2 >= limit)
             continue;
         const Node& node = nodes_[at];
         if (node.second != 0) {

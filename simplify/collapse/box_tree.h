@@ -20,8 +20,8 @@ public:
 
         glm::mat3 linear;
         glm::vec3 offset;
-        glm::mat3 inverse;    // of linear; not finite if that is flat
-        float least_stretch2; // linear makes nothing shorter than by its root
+        glm::mat3 inverse;    // of linear, 0 if that is flat
+        float least_stretch2; // linear makes nothing shorter than by its root; 0 if it is flat
     };
 
     // O(n log n).
