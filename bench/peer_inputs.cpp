@@ -59,6 +59,7 @@ sheetOf(const PeerInputFile& input, const PeerBench& bench, Inputs& inputs) {
 
 std::vector<PeerSection> peerSections() {
     std::vector<PeerSection> sections;
+    sections.reserve(kInputs.size());
     for (const PeerInputFile& input : kInputs)
         sections.push_back(
             {input.title, input.quick, [&input](const PeerBench& bench, Inputs& inputs) {

@@ -102,7 +102,7 @@ ScenePtr displacedSphere(std::uint32_t side) {
                                                      grid.vertex(face, u + 1, v + 1)};
                 if (face % 2 == 0) // turn it outwards
                     std::swap(corners[1], corners[2]);
-                for (const std::size_t corner : {0, 1, 2, 1, 3, 2})
+                for (const std::uint32_t corner : {0u, 1u, 2u, 1u, 3u, 2u})
                     geometry->indices.push_back(corners[corner]);
             }
     geometry->positions = grid.takePositions();

@@ -78,10 +78,11 @@ double sumOf(const std::vector<Part>& parts) {
     return sum;
 }
 
-double longestOf(const Comparison& comparison, std::vector<Part> (*partsOf)(const ComparisonRow&)) {
+double longestOf(const Comparison& comparison,
+                 std::vector<Part> (*parts_of)(const ComparisonRow&)) {
     double longest = 0.0;
     for (const ComparisonRow* row : shownRows(comparison))
-        longest = std::max(longest, sumOf(partsOf(*row)));
+        longest = std::max(longest, sumOf(parts_of(*row)));
     return longest;
 }
 

@@ -260,17 +260,17 @@ private:
 };
 
 std::string sniffMimeType(std::span<const std::byte> bytes) {
-    const auto startsWith = [&](std::string_view magic) {
+    const auto starts_with = [&](std::string_view magic) {
         return bytes.size() >= magic.size() &&
                std::memcmp(bytes.data(), magic.data(), magic.size()) == 0;
     };
-    if (startsWith("\x89PNG"))
+    if (starts_with("\x89PNG"))
         return "image/png";
-    if (startsWith("\xFF\xD8\xFF"))
+    if (starts_with("\xFF\xD8\xFF"))
         return "image/jpeg";
-    if (startsWith("RIFF"))
+    if (starts_with("RIFF"))
         return "image/webp";
-    if (startsWith("\xABKTX 20\xBB"))
+    if (starts_with("\xABKTX 20\xBB"))
         return "image/ktx2";
     return "image/png";
 }
