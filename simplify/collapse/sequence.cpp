@@ -1,7 +1,7 @@
 #include "simplify/collapse/sequence.h"
 
-#include "simplify/collapse/collapse_method.h"
 #include "scene/radix_sort.h"
+#include "simplify/collapse/collapse_method.h"
 
 #include <algorithm>
 #include <atomic>

@@ -20,7 +20,7 @@ struct Distance {
     double a_to_b_mean = 0.0;
     double b_to_a_max = 0.0;
     double b_to_a_mean = 0.0;
-    double sampled_max = 0.0; // at the samples alone, as sampling programs print it; <= hausdorff
+    double sampled_max = 0.0;  // at the samples alone, as sampling programs print it; <= hausdorff
     std::uint64_t samples = 0; // in all
 };
 
