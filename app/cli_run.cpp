@@ -161,6 +161,11 @@ transferTextures(const RunRequest& request, RunOutcome& outcome, const JobContex
     return {};
 }
 
+Result<Distance> distanceFrom(const Scene& original, const LodView& view, const JobContext& job) {
+    const Lod full = fullLod(original);
+    return measureDistance({&original, &full}, view, DistanceOptions{}, job);
+}
+
 } // namespace
 
 Result<LoadedInput> loadInput(const std::filesystem::path& path, const JobContext& job) {
@@ -194,11 +199,8 @@ Result<RunOutcome> runAlgorithm(const RunRequest& request, const JobContext& job
     if (job.stopRequested())
         return cancelled();
     if (request.measure) {
-        const Lod full = fullLod(*request.scene);
-        const Result<Distance> distance = measureDistance({request.scene.get(), &full},
-                                                          {outcome.scene.get(), outcome.lod.get()},
-                                                          DistanceOptions{},
-                                                          job);
+        const Result<Distance> distance =
+            distanceFrom(*request.scene, {outcome.scene.get(), outcome.lod.get()}, job);
         if (!distance)
             return tl::unexpected<Error>(distance.error());
         outcome.distance = *distance;
@@ -211,9 +213,8 @@ measureFile(const Scene& original, const std::filesystem::path& path, const JobC
     const Result<ScenePtr> written = importScene(path, job);
     if (!written)
         return tl::unexpected<Error>(written.error());
-    const Lod full = fullLod(original);
     const Lod all = fullLod(**written);
-    return measureDistance({&original, &full}, {written->get(), &all}, DistanceOptions{}, job);
+    return distanceFrom(original, {written->get(), &all}, job);
 }
 
 } // namespace lodestone

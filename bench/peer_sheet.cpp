@@ -52,11 +52,11 @@ Result<void> readBack(const std::filesystem::path& path, Column& column) {
 
 // Writes a level of detail and reads it back.
 Result<void> throughFile(const std::filesystem::path& path, Column& column) {
+    column.worth.triangles = column.lod->triangles;
+    column.worth.instances = column.lod->instances;
     const Result<ExportReport> written = exportScene(*column.scene, *column.lod, path, {});
     if (!written)
         return tl::unexpected(written.error());
-    column.worth.triangles = column.lod->triangles;
-    column.worth.instances = column.lod->instances;
     return readBack(path, column);
 }
 

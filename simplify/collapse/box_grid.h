@@ -1,23 +1,14 @@
 #pragma once
 // Boxes by the cells of a dense grid that they touch. Single precision: relative to a point among
 // them.
+#include "simplify/collapse/box.h"
+
 #include <algorithm>
 #include <cstdint>
-#include <glm/glm.hpp>
 #include <span>
 #include <vector>
 
 namespace lodestone {
-
-struct Box {
-    glm::vec3 low{0.0f};
-    glm::vec3 high{0.0f};
-
-    float squaredDistance(const glm::vec3& p) const {
-        const glm::vec3 apart = glm::max(glm::max(low - p, p - high), glm::vec3(0.0f));
-        return glm::dot(apart, apart);
-    }
-};
 
 class BoxGrid {
 public:

@@ -1,10 +1,9 @@
 #pragma once
 // The nearest of a submesh's triangles, for any instance of it: one tree serves them all.
-#include "simplify/collapse/box_grid.h"
+#include "simplify/collapse/box.h"
 
 #include <array>
 #include <cstdint>
-#include <glm/glm.hpp>
 #include <span>
 #include <vector>
 

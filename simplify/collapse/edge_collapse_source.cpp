@@ -273,6 +273,8 @@ enum class RemovalRule : std::uint8_t { ByCost, ByPaper };
 
 void planRemovals(SequenceSet& set, const Bounds& bounds, RemovalRule rule, const JobContext& job) {
     constexpr double kCoverTolerance = 2e-4; // of the diagonal
+    if (std::ranges::none_of(set.ranges, [](InstanceRange range) { return range.size() > 1; }))
+        return;
     std::vector<SubmeshFacts> facts(set.ranges.size());
     tbb::parallel_for(std::size_t{0}, facts.size(), [&](std::size_t s) {
         facts[s] = factsOf(*set.scene, set.scene->submeshes[s], set.ranges[s].size());

@@ -5,7 +5,6 @@
 #include "simplify/collapse/removal_order.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

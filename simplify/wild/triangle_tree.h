@@ -1,6 +1,7 @@
 #pragma once
 // Which triangles of other components lie near a triangle: a bounding volume hierarchy, because
 // triangles of artists' models differ in size far too much for a grid.
+#include "simplify/collapse/box.h"
 #include "simplify/collapse/complex.h"
 
 #include <algorithm>
@@ -45,11 +46,6 @@ public:
     }
 
 private:
-    struct Box {
-        glm::vec3 low{0.0f};
-        glm::vec3 high{0.0f};
-    };
-
     struct Node {
         Box box;
         std::uint32_t begin = 0; // of order_; empty for inner nodes
